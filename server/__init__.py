@@ -1,0 +1,1 @@
+"""What decides: control, jobs, vision, storage, the API and the command line."""
