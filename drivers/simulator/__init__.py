@@ -1,0 +1,1 @@
+"""One simulated garage behind the robot, camera and station protocols."""

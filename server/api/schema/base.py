@@ -1,0 +1,26 @@
+"""Conventions of every wire model: unknown fields are refused, units stand in the names."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import AwareDatetime, BaseModel, ConfigDict, Field
+
+VehicleId = Annotated[
+    str,
+    Field(
+        min_length=1,
+        max_length=64,
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$",
+        description="Chosen by the owner; stands in the QR label",
+        examples=["zoe"],
+    ),
+]
+
+Timestamp = Annotated[AwareDatetime, Field(examples=["2026-03-01T18:04:05.120Z"])]
+
+
+class Wire(BaseModel):
+    """A model that crosses the network."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="null")

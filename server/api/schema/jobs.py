@@ -1,0 +1,119 @@
+"""Jobs as the API shows them."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from server.api.schema.base import Timestamp, VehicleId, Wire
+from server.api.schema.problem import Problem
+
+
+class JobType(StrEnum):
+    """What a job is to do."""
+
+    CHARGE = "charge"  # plug in, charge, unplug, park
+    PLUG_IN = "plug_in"  # plug in and stay
+    UNPLUG = "unplug"  # release, withdraw, park
+
+
+class JobState(StrEnum):
+    """Where a job is in its life."""
+
+    QUEUED = "queued"
+    RUNNING = "running"
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    CANCELLED = "cancelled"
+
+
+class JobPhase(StrEnum):
+    """What a running job is doing."""
+
+    PREFLIGHT = "preflight"
+    LOCATING = "locating"
+    ALIGNING = "aligning"
+    INSERTING = "inserting"
+    PLUGGED = "plugged"
+    CHARGING = "charging"
+    RELEASING = "releasing"
+    WITHDRAWING = "withdrawing"
+    PARKING = "parking"
+
+
+class JobRequest(Wire):
+    """A job to be done."""
+
+    type: JobType
+    vehicle_id: VehicleId | None = Field(
+        default=None, description="Null takes the only vehicle; with several it must be given"
+    )
+    target_energy_wh: Annotated[float, Field(gt=0, le=200_000, allow_inf_nan=False)] | None = (
+        Field(default=None, description="Charge: stop after this much energy; null: until full")
+    )
+
+
+class JobResult(Wire):
+    """What a job measured; null where it did not get that far."""
+
+    insertion_depth_mm: float | None = Field(
+        default=None, description="Plug in the socket, from the rho3 encoder and the measured face"
+    )
+    lateral_error_mm: float | None = Field(
+        default=None,
+        description="Distance of the plug's axis from the measured socket axis at the entry",
+    )
+    lateral_sigma_mm: float | None = Field(
+        default=None, description="Standard deviation of that measurement"
+    )
+    max_force_n: float | None = Field(default=None, description="Largest insertion force")
+    energy_wh: float | None = Field(default=None, description="Energy charged")
+    plugged_after_s: float | None = Field(
+        default=None, description="From acceptance of the job to the plug seated"
+    )
+    limit_duration_s: float | None = Field(
+        default=None, description="The same motion if only the joint limits mattered"
+    )
+
+
+class Job(Wire):
+    """One job, running or ended."""
+
+    id: str = Field(description="Sortable by time (UUID version 7)")
+    type: JobType
+    state: JobState
+    phase: JobPhase
+    vehicle_id: VehicleId
+    target_energy_wh: float | None
+    created_at: Timestamp
+    updated_at: Timestamp
+    phase_started_at: Timestamp
+    cancel_requested: bool
+    result: JobResult
+    error: Problem | None
+
+
+class JobPage(Wire):
+    """Jobs, newest first."""
+
+    items: list[Job]
+    next_cursor: str | None = Field(description="Pass as ?cursor= for the next page; null: end")
+
+
+class JobEvent(Wire):
+    """One entry of a job's journal."""
+
+    sequence: int = Field(ge=1)
+    at: Timestamp
+    kind: str = Field(examples=["phase_started"])
+    phase: JobPhase
+    message: str = Field(description="In words")
+    data: dict[str, Any] = Field(default_factory=dict)
+
+
+class JobEvents(Wire):
+    """The journal of one job, oldest first."""
+
+    items: list[JobEvent]

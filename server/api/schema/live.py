@@ -1,0 +1,142 @@
+"""Messages on the WebSocket /api/v1/ws, typed and versioned like the REST models.
+
+The server sends one snapshot, then deltas that carry only the sections that changed, newest
+value only. A client that falls behind gets the newest sections in its next delta, never a
+backlog. Values older than ``stale_after_s`` should be shown as stale.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from server.api.schema.base import Timestamp, Wire
+from server.api.schema.jobs import Job
+from server.api.schema.problem import Problem
+from server.api.schema.robot import JogStep, Robot
+from server.api.schema.station import Station
+
+PROTOCOL_VERSION: Literal[1] = 1
+
+
+class Service(Wire):
+    """The server itself."""
+
+    version: str
+    simulated: bool = Field(description="No real robot moves")
+    speed: float = Field(description="Simulated seconds per second; 1 for a real robot")
+    camera_online: bool
+    started_at: Timestamp
+
+
+class Live(Wire):
+    """Every live section."""
+
+    robot: Robot
+    job: Job | None = Field(description="The running job, else the newest one, else null")
+    station: Station
+    service: Service
+
+
+class LiveChanges(Wire):
+    """The sections that changed; absent ones did not."""
+
+    robot: Robot | None = None
+    job: Job | None = None
+    station: Station | None = None
+    service: Service | None = None
+
+
+class SnapshotMessage(Wire):
+    """First message on every connection."""
+
+    type: Literal["snapshot"] = "snapshot"
+    version: Literal[1] = PROTOCOL_VERSION
+    sequence: int
+    stale_after_s: float = 1.0
+    live: Live
+
+
+class DeltaMessage(Wire):
+    """Sections that changed since the last message on this connection."""
+
+    type: Literal["delta"] = "delta"
+    sequence: int
+    changes: LiveChanges
+
+
+class ReplyMessage(Wire):
+    """Answer to a client message that carried an id."""
+
+    type: Literal["reply"] = "reply"
+    id: int
+    ok: bool
+    problem: Problem | None = None
+
+
+ServerMessage = Annotated[
+    SnapshotMessage | DeltaMessage | ReplyMessage, Field(discriminator="type")
+]
+
+
+class StopMessage(Wire):
+    """Protective stop (category 2). Needs no control, is never queued."""
+
+    type: Literal["stop"] = "stop"
+    id: int | None = None
+
+
+class EmergencyStopMessage(Wire):
+    """Emergency stop (category 1, latched). Needs no control, is never queued."""
+
+    type: Literal["emergency_stop"] = "emergency_stop"
+    id: int | None = None
+
+
+class JogMessage(Wire):
+    """Hold-to-move: send it every 100 ms while the button is held.
+
+    250 ms without one, ``jog_end``, or a closed connection stops the motion.
+    """
+
+    type: Literal["jog"] = "jog"
+    id: int | None = None
+    axis: Annotated[
+        Literal["rho1", "rho2", "rho3", "x", "y", "insertion"], Field(description="As JogStep")
+    ]
+    direction: Literal[-1, 1]
+    speed_mm_s: Annotated[float, Field(gt=0, le=20, allow_inf_nan=False)] = 10.0
+
+
+class JogStepMessage(Wire):
+    """One step, as POST /robot/jog."""
+
+    type: Literal["jog_step"] = "jog_step"
+    id: int | None = None
+    step: JogStep
+
+
+class JogEndMessage(Wire):
+    """The button was released."""
+
+    type: Literal["jog_end"] = "jog_end"
+    id: int | None = None
+
+
+class ResyncMessage(Wire):
+    """Ask for a new snapshot."""
+
+    type: Literal["resync"] = "resync"
+    id: int | None = None
+
+
+ClientMessage = Annotated[
+    StopMessage
+    | EmergencyStopMessage
+    | JogMessage
+    | JogStepMessage
+    | JogEndMessage
+    | ResyncMessage,
+    Field(discriminator="type"),
+]
