@@ -2,45 +2,13 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated, Any
 
 from pydantic import Field
 
 from server.api.schema.base import Timestamp, VehicleId, Wire
 from server.api.schema.problem import Problem
-
-
-class JobType(StrEnum):
-    """What a job is to do."""
-
-    CHARGE = "charge"  # plug in, charge, unplug, park
-    PLUG_IN = "plug_in"  # plug in and stay
-    UNPLUG = "unplug"  # release, withdraw, park
-
-
-class JobState(StrEnum):
-    """Where a job is in its life."""
-
-    QUEUED = "queued"
-    RUNNING = "running"
-    SUCCEEDED = "succeeded"
-    FAILED = "failed"
-    CANCELLED = "cancelled"
-
-
-class JobPhase(StrEnum):
-    """What a running job is doing."""
-
-    PREFLIGHT = "preflight"
-    LOCATING = "locating"
-    ALIGNING = "aligning"
-    INSERTING = "inserting"
-    PLUGGED = "plugged"
-    CHARGING = "charging"
-    RELEASING = "releasing"
-    WITHDRAWING = "withdrawing"
-    PARKING = "parking"
+from server.jobs.model import JobPhase, JobState, JobType
 
 
 class JobRequest(Wire):
@@ -50,8 +18,8 @@ class JobRequest(Wire):
     vehicle_id: VehicleId | None = Field(
         default=None, description="Null takes the only vehicle; with several it must be given"
     )
-    target_energy_wh: Annotated[float, Field(gt=0, le=200_000, allow_inf_nan=False)] | None = (
-        Field(default=None, description="Charge: stop after this much energy; null: until full")
+    target_energy_wh: Annotated[float, Field(gt=0, le=200_000, allow_inf_nan=False)] | None = Field(
+        default=None, description="Charge: stop after this much energy; null: until full"
     )
 
 

@@ -2,36 +2,12 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from server.api.schema.base import Timestamp, Wire
-
-
-class RobotMode(StrEnum):
-    """What the robot is doing, seen from outside."""
-
-    OFFLINE = "offline"  # no link to the motion board
-    OFF = "off"  # drives are de-energised
-    NOT_HOMED = "not_homed"  # drives on, position unknown
-    HOMING = "homing"
-    READY = "ready"  # at rest, may be moved
-    MOVING = "moving"
-    STOPPING = "stopping"
-    STOPPED = "stopped"  # protective stop (category 2); reset continues
-    EMERGENCY_STOP = "emergency_stop"  # latched; reset and homing continue
-    FAULT = "fault"  # latched; see fault
-
-
-class PlugState(StrEnum):
-    """Where the plug is. Inserted and unknown allow no lateral motion, only withdrawal."""
-
-    PARKED = "parked"
-    FREE = "free"
-    INSERTED = "inserted"
-    UNKNOWN = "unknown"
+from server.control.model import HolderKind, PlugState, RobotMode
 
 
 class Joints(Wire):
@@ -68,7 +44,7 @@ class CommandedMotion(Wire):
 class ControlHolder(Wire):
     """Who has control of the robot."""
 
-    kind: Literal["job", "jog", "homing", "calibration"]
+    kind: HolderKind
     name: str = Field(description="A person or a job, in words", examples=["Charging job"])
     since: Timestamp
 

@@ -1,0 +1,116 @@
+"""Errors of control.
+
+ControlError
+├── ControlBusyError             somebody else has control
+├── ControlLostError             the lease was ended while it was in use
+├── RobotOfflineError            no link to the motion board
+├── RobotNotReadyError           drives off or not homed
+├── RobotStoppedError            a protective stop is in force
+├── EmergencyStoppedError        an emergency stop is latched
+├── RobotFaultError              the motion board latched a fault
+├── MotionRefusedError           the board refused the motion
+├── LateralMotionForbiddenError  the plug is, or may be, in the socket
+├── MotionOutOfReachError        joint limit, workspace or singularity
+└── ForceLimitError              the insertion force went over its limit
+"""
+
+from __future__ import annotations
+
+from server.errors import PlugPilotError
+
+
+class ControlError(PlugPilotError):
+    """The robot cannot do what was asked for."""
+
+    code = "control"
+    title = "The robot cannot do that now"
+    status = 409
+
+
+class ControlBusyError(ControlError):
+    """Somebody else has control of the robot."""
+
+    code = "control_busy"
+    title = "Somebody else is using the robot"
+    remedy = "Wait until they are done, or stop the robot first."
+
+
+class ControlLostError(ControlError):
+    """The lease was ended while it was in use."""
+
+    code = "control_lost"
+    title = "Control of the robot was taken away"
+    remedy = "Start again when the robot is free."
+
+
+class RobotOfflineError(ControlError):
+    """There is no link to the motion board."""
+
+    code = "robot_offline"
+    title = "The robot is not connected"
+    status = 503
+    remedy = "Check that the motion board has power and that its USB cable is plugged in."
+
+
+class RobotNotReadyError(ControlError):
+    """The drives are off, or the robot does not know its position."""
+
+    code = "robot_not_ready"
+    title = "The robot is not ready to move"
+    remedy = "Switch the drives on and home the robot."
+
+
+class RobotStoppedError(ControlError):
+    """A protective stop is in force."""
+
+    code = "stopped"
+    title = "The robot was stopped"
+    remedy = "Check that the way is clear, then release the stop."
+
+
+class EmergencyStoppedError(ControlError):
+    """An emergency stop is latched."""
+
+    code = "emergency_stopped"
+    title = "The emergency stop is active"
+    remedy = "Make sure that everyone is safe, then release the emergency stop and home the robot."
+
+
+class RobotFaultError(ControlError):
+    """The motion board latched a fault."""
+
+    code = "robot_fault"
+    title = "The robot stopped because of a fault"
+    remedy = "Look at the robot for anything that blocks it, then release the fault."
+
+
+class MotionRefusedError(ControlError):
+    """The motion board refused a command."""
+
+    code = "motion_refused"
+    title = "The motion board refused to move"
+    remedy = "Home the robot and try again."
+
+
+class LateralMotionForbiddenError(ControlError):
+    """The plug is, or may be, in the socket: only withdrawal is allowed."""
+
+    code = "lateral_motion_forbidden"
+    title = "The plug may be in the socket"
+    remedy = "Unplug first. If the plug hangs free, confirm that on the page."
+
+
+class MotionOutOfReachError(ControlError):
+    """The motion would leave the joint limits or the workspace."""
+
+    code = "out_of_reach"
+    title = "The robot cannot reach that"
+    remedy = "Choose a target nearer to the middle of the workspace."
+
+
+class ForceLimitError(ControlError):
+    """The force along the insertion axis went over its limit; the motion was stopped."""
+
+    code = "force_limit"
+    title = "The plug met too much resistance"
+    remedy = "Check that nothing is in the socket or in the way of the plug."
