@@ -1,0 +1,108 @@
+# What a person or a CI machine runs. `make help` lists it.
+
+PYTHON ?= python3
+ARGS ?=
+
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet install
+COMPILE := $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes \
+	--no-emit-index-url --no-header
+WEB_SOURCES := $(shell find web -type f -not -path '*/node_modules/*' -not -path '*/dist/*' 2>/dev/null)
+
+# The tools of the environment come first, among them the stand-ins of .ci/ensure-node.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+MAKEFLAGS += --no-print-directory
+
+.DEFAULT_GOAL := help
+.PHONY: help setup run test lint format bench lock clean setup-dev system-packages \
+	check-style check-types check-web test-python test-web
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' Makefile
+
+setup: $(VENV)/.project ## install PlugPilot and build its pages, once
+
+run: setup ## start PlugPilot; options of `plugpilot serve` go into ARGS="..."
+	@exec $(BIN)/plugpilot serve $(ARGS)
+
+test: setup-dev system-packages ## run every check and every test, as CI does
+	@$(MAKE) --keep-going check-style check-types check-web test-python test-web
+
+lint: setup-dev ## check style and types only
+	@$(MAKE) --keep-going check-style check-types check-web
+
+format: setup-dev ## lay the Python sources out and mend what can be mended
+	@$(BIN)/ruff check --fix --quiet .
+	@$(BIN)/ruff format --quiet .
+
+bench: setup-dev ## run the benchmarks
+	@for file in tests/bench/[a-z]*.py; do \
+		name=$$(basename $$file .py); echo "-- $$name"; \
+		$(BIN)/python -m tests.bench.$$name || exit 1; \
+	done
+
+lock: $(BIN)/python ## choose the newest allowed versions and write the lock files
+	@$(PIP) "uv>=0.8,<1"
+	@$(COMPILE) --upgrade pyproject.toml --group build --output-file requirements.lock
+	@$(COMPILE) --upgrade pyproject.toml --group build --group dev \
+		--constraints requirements.lock --output-file requirements-dev.lock
+	@$(COMPILE) --upgrade --group node --output-file requirements-node.lock
+
+clean: ## remove everything that was installed or built, but no data
+	@rm -rf $(VENV) server/static web/node_modules dist build \
+		.mypy_cache .pytest_cache .ruff_cache .hypothesis
+
+# --- parts of the checks ------------------------------------------------------------------------
+
+check-style:
+	@echo "-- style"
+	@$(BIN)/ruff check --quiet .
+	@$(BIN)/ruff format --quiet --check --diff .
+
+check-types:
+	@echo "-- types"
+	@$(BIN)/mypy --no-error-summary
+
+check-web: web/node_modules/.package-lock.json
+	@echo "-- types of the web pages"
+	@cd web && npm run --silent check
+
+test-python:
+	@echo "-- tests"
+	@$(BIN)/pytest --no-header
+
+test-web: web/node_modules/.package-lock.json
+	@echo "-- tests of the web pages"
+	@cd web && npm test --silent
+
+# --- what is installed, each with a stamp -------------------------------------------------------
+
+setup-dev: setup $(VENV)/.development
+
+system-packages:
+	@.ci/install-system-packages .ci/system-packages.txt
+
+$(BIN)/python:
+	@$(PYTHON) .ci/check_python.py
+	@$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.requirements: requirements.lock | $(BIN)/python
+	@echo "Installing the requirements (once, about a minute) ..."
+	@$(PIP) --require-hashes --requirement requirements.lock
+	@touch $@
+
+$(VENV)/.project: $(VENV)/.requirements pyproject.toml $(WEB_SOURCES)
+	@.ci/ensure-node $(BIN)
+	@echo "Building the web pages and installing PlugPilot ..."
+	@$(PIP) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(VENV)/.development: $(VENV)/.requirements requirements-dev.lock
+	@echo "Installing the tools for the checks ..."
+	@$(PIP) --require-hashes --requirement requirements-dev.lock
+	@touch $@
+
+web/node_modules/.package-lock.json: web/package-lock.json | $(VENV)/.project
+	@cd web && npm ci --silent
+	@touch $@
