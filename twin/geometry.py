@@ -37,12 +37,13 @@ class JointRange(BaseModel):
         return self.max_mm - self.min_mm
 
     def excess_mm(self, position_mm: float) -> float:
-        """Distance by which a position lies outside the range [mm], negative below it, 0 inside."""
-        if position_mm < self.min_mm:
-            return position_mm - self.min_mm
-        if position_mm > self.max_mm:
-            return position_mm - self.max_mm
-        return 0.0
+        """Distance by which a position lies outside the range [mm], negative below it, 0 inside.
+
+        NaN is never inside: its excess is NaN.
+        """
+        if self.min_mm <= position_mm <= self.max_mm:
+            return 0.0
+        return position_mm - (self.min_mm if position_mm < self.min_mm else self.max_mm)
 
 
 class RegularBox(BaseModel):
@@ -119,7 +120,7 @@ class RobotGeometry(BaseModel):
             msg = (
                 f"the legs never meet: with L = {self.leg_length_mm:g} mm they bridge less than "
                 f"{2 * self.leg_length_mm:g} mm, but their feet stay at least "
-                f"{math.hypot(closest, rise):g} mm apart; lengthen leg_length_mm or the strokes"
+                f"{math.hypot(max(closest, 0.0), rise):g} mm apart; lengthen leg_length_mm or the strokes"
             )
             raise ValueError(msg)
         if span - self.rho1.min_mm - self.rho2.min_mm <= 0:
