@@ -1,0 +1,88 @@
+"""Keeps the link to the motion board alive and feeds the telemetry."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+from collections.abc import Awaitable, Callable
+
+from drivers.robot import RobotDriver, RobotDriverError, RobotIdentity, RobotState
+from server.control.telemetry import Telemetry
+
+_log = logging.getLogger(__name__)
+
+RECONNECT_S = 1.0
+
+
+class RobotLink:
+    """Connects for ever; every sample goes into the telemetry, then to the listeners.
+
+    Args:
+        driver: The motion board.
+        telemetry: Fed with every sample, emptied when the link goes down.
+        on_connected: Called with the first sample after every connection.
+        on_sample: Called with every sample.
+        on_lost: Called when the link goes down.
+    """
+
+    def __init__(
+        self,
+        driver: RobotDriver,
+        telemetry: Telemetry,
+        *,
+        on_connected: Callable[[RobotState], Awaitable[None]],
+        on_sample: Callable[[RobotState], None],
+        on_lost: Callable[[], None],
+    ) -> None:
+        self.identity: RobotIdentity | None = None
+        self._driver = driver
+        self._telemetry = telemetry
+        self._on_connected = on_connected
+        self._on_sample = on_sample
+        self._on_lost = on_lost
+        self._task: asyncio.Task[None] | None = None
+        self._attempted = asyncio.Event()
+
+    async def start(self) -> None:
+        """Begin connecting; returns after the first attempt, whether it worked or not."""
+        self._task = asyncio.create_task(self._run(), name="robot link")
+        self._task.add_done_callback(self._report_crash)
+        await self._attempted.wait()
+
+    async def close(self) -> None:
+        """Stop the robot and let go of it."""
+        if self._task is not None:
+            self._task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._task
+        await self._driver.close()
+
+    async def _run(self) -> None:
+        while True:
+            try:
+                self.identity = await self._driver.connect()
+                await self._read()
+            except RobotDriverError as error:
+                _log.warning("no link to the motion board: %s", error)
+            self._telemetry.lose()
+            self._on_lost()
+            self._attempted.set()
+            await asyncio.sleep(RECONNECT_S)
+
+    async def _read(self) -> None:
+        first = True
+        async for state in self._driver.telemetry():
+            self._telemetry.put(state)
+            if first:
+                await self._on_connected(state)
+                self._attempted.set()
+                first = False
+            self._on_sample(state)
+
+    def _report_crash(self, task: asyncio.Task[None]) -> None:
+        if not task.cancelled() and task.exception() is not None:
+            _log.critical("the link to the motion board crashed", exc_info=task.exception())
+            self._telemetry.lose()
+            self._attempted.set()
+            self._on_lost()

@@ -1,0 +1,161 @@
+"""One motion under way: a plan fed to the board segment by segment, with bounded look-ahead."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections import deque
+from collections.abc import Callable
+
+from drivers.robot import (
+    BoardState,
+    RobotDriver,
+    RobotDriverError,
+    RobotIdentity,
+    RobotState,
+    StopCategory,
+)
+from server.control.errors import MotionRefusedError, RobotOfflineError
+from server.control.telemetry import Telemetry
+from twin.joints import JointAcceleration
+from twin.motion import JointState, MotionPlan, plan_segments
+from twin.motion.segments import Segment
+
+_log = logging.getLogger(__name__)
+
+LOOK_AHEAD = 8
+"""Segments kept in the board: 160 ms rides out a busy computer and still lets a target change."""
+
+IN_TRANSIT_S = 0.01
+"""Segments pushed this recently may be missing from the newest telemetry's count."""
+
+ARRIVED_MM = 0.02
+
+Watch = Callable[[RobotState], None]
+"""Called with every sample while the motion runs; raising stops the motion."""
+
+Replan = Callable[[JointState], MotionPlan]
+"""Makes a plan from a state that may be in motion."""
+
+
+class Motion:
+    """A motion that is being executed. Made by the supervisor; ``run`` may be awaited once."""
+
+    def __init__(
+        self,
+        driver: RobotDriver,
+        identity: RobotIdentity,
+        telemetry: Telemetry,
+        plan: MotionPlan,
+        watch: Watch | None,
+    ) -> None:
+        self._driver = driver
+        self._telemetry = telemetry
+        self._segment_s = identity.segment_s
+        self._look_ahead = min(LOOK_AHEAD, identity.queue_capacity)
+        self._capacity = identity.queue_capacity
+        self._watch = watch
+        self._interruption: Exception | None = None
+        self._recent: deque[tuple[float, int]] = deque()
+        self._tail: Segment | None = None
+        self._plan = plan
+        self._sent_of_plan_s = 0.0
+        self._pending = deque(plan_segments(plan, self._segment_s))
+
+    @property
+    def plan(self) -> MotionPlan:
+        """The plan being followed."""
+        return self._plan
+
+    def interrupt(self, reason: Exception) -> None:
+        """Make ``run`` stop the robot and raise ``reason`` at the next sample."""
+        self._interruption = reason
+
+    def retarget(self, replan: Replan) -> None:
+        """Continue differently from the end of what the board already has."""
+        plan = replan(self._tail_state())
+        self._plan, self._sent_of_plan_s = plan, 0.0
+        self._pending = deque(plan_segments(plan, self._segment_s))
+
+    async def run(self) -> RobotState:
+        """Feed the board until the plan's end is reached; return the last sample.
+
+        Whatever ends it early (interruption, a watch that raises, cancellation) stops the robot
+        with category 2 first.
+        """
+        state = self._telemetry.require()
+        arrived = False
+        try:
+            while not arrived:
+                await self._feed(state)
+                state = await self._telemetry.next()
+                self._check(state)
+                arrived = self._arrived(state)
+        except BaseException:
+            await asyncio.shield(self._halt())
+            raise
+        return state
+
+    def _check(self, state: RobotState) -> None:
+        if self._interruption is not None:
+            raise self._interruption
+        if self._watch is not None:
+            self._watch(state)
+
+    def _arrived(self, state: RobotState) -> bool:
+        end = self._tail.end if self._tail else self._plan.end
+        return (
+            not self._pending
+            and state.board is BoardState.READY
+            and state.sampled_at_s > (self._recent[-1][0] if self._recent else 0.0)
+            and max(abs(a - b) for a, b in zip(state.commanded.position, end, strict=True))
+            < ARRIVED_MM
+        )
+
+    async def _feed(self, state: RobotState) -> None:
+        in_board = self._capacity - state.queue_free + self._in_transit(state)
+        room = self._look_ahead - in_board
+        if room <= 0 or not self._pending:
+            return
+        batch = [self._pending.popleft() for _ in range(min(room, len(self._pending)))]
+        self._tail = batch[-1]
+        self._sent_of_plan_s += sum(segment.duration_s for segment in batch)
+        try:
+            await self._driver.push(batch)
+        except RobotDriverError as error:
+            raise MotionRefusedError(f"The motion board refused the motion: {error}") from error
+        self._recent.append((asyncio.get_running_loop().time(), len(batch)))
+
+    def _in_transit(self, state: RobotState) -> int:
+        seen_until_s = state.sampled_at_s - IN_TRANSIT_S
+        while len(self._recent) > 1 and self._recent[0][0] < seen_until_s:
+            self._recent.popleft()
+        return sum(n for at_s, n in self._recent if at_s >= seen_until_s)
+
+    def _tail_state(self) -> JointState:
+        if self._tail is None:
+            return JointState(
+                self._plan.position_at(0.0),
+                self._plan.velocity_at(0.0),
+                self._plan.acceleration_at(0.0),
+            )
+        at_rest = self._sent_of_plan_s >= self._plan.duration_s - 1e-9
+        return JointState(
+            self._tail.end,
+            self._tail.end_velocity,
+            JointAcceleration(0.0, 0.0, 0.0)
+            if at_rest
+            else self._plan.acceleration_at(self._sent_of_plan_s),
+        )
+
+    async def _halt(self) -> None:
+        """Bring the robot to rest; a board that cannot be told stops by its own heartbeat."""
+        if self._telemetry.latest is None:
+            return
+        try:
+            await self._driver.stop(StopCategory.DECELERATE_AND_HOLD)
+            async with asyncio.timeout(1.0):
+                while self._telemetry.require().board in {BoardState.RUN, BoardState.STOPPING}:
+                    await self._telemetry.next()
+        except (RobotDriverError, RobotOfflineError, TimeoutError):
+            _log.exception("the robot could not be told to stop")
