@@ -1,0 +1,76 @@
+"""The whole configuration: one section per subject."""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field, model_validator
+from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
+
+from server.config.camera import CameraSettings
+from server.config.insertion import InsertionSettings
+from server.config.logs import LoggingSettings
+from server.config.park import ParkSettings
+from server.config.robot import RobotSettings
+from server.config.server import ServerSettings
+from server.config.simulation import SimulationSettings
+from server.config.station import StationSettings
+from server.config.storage import StorageSettings
+from twin.geometry import RobotGeometry
+
+
+class Settings(BaseSettings):
+    """Everything that can be set, with defaults that work on the simulator.
+
+    Making one directly takes the defaults and what is given, and nothing from the machine: files
+    and environment variables are the business of `server.config.loading`.
+    """
+
+    model_config = SettingsConfigDict(
+        frozen=True,
+        extra="forbid",
+        env_prefix="PLUGPILOT_",
+        env_nested_delimiter="__",
+    )
+
+    server: ServerSettings = ServerSettings()
+    storage: StorageSettings = StorageSettings()
+    robot: RobotSettings = RobotSettings()
+    geometry: RobotGeometry = RobotGeometry()
+    camera: CameraSettings = Field(default_factory=CameraSettings)
+    station: StationSettings = StationSettings()
+    insertion: InsertionSettings = InsertionSettings()
+    park: ParkSettings = ParkSettings()
+    simulation: SimulationSettings = SimulationSettings()
+    logging: LoggingSettings = LoggingSettings()
+
+    @classmethod
+    def settings_customise_sources(
+        cls,
+        settings_cls: type[BaseSettings],
+        init_settings: PydanticBaseSettingsSource,
+        env_settings: PydanticBaseSettingsSource,
+        dotenv_settings: PydanticBaseSettingsSource,
+        file_secret_settings: PydanticBaseSettingsSource,
+    ) -> tuple[PydanticBaseSettingsSource, ...]:
+        """Only what is given: see the description of the class."""
+        del settings_cls, env_settings, dotenv_settings, file_secret_settings
+        return (init_settings,)
+
+    @model_validator(mode="after")
+    def _slide_is_long_enough(self) -> Self:
+        slide = self.geometry.rho3
+        needed = self.insertion.pre_insertion_distance_mm + self.insertion.depth_mm
+        if needed > slide.stroke_mm:
+            msg = (
+                f"the slide is too short: insertion.pre_insertion_distance_mm + insertion.depth_mm"
+                f" = {needed:g} mm, but geometry.rho3 travels only {slide.stroke_mm:g} mm"
+            )
+            raise ValueError(msg)
+        if slide.excess_mm(self.park.rho3_mm) != 0:
+            msg = (
+                f"park.rho3_mm = {self.park.rho3_mm:g} lies outside geometry.rho3, which goes "
+                f"from {slide.min_mm:g} to {slide.max_mm:g} mm"
+            )
+            raise ValueError(msg)
+        return self
