@@ -1,0 +1,109 @@
+"""Time-optimal jerk-limited trajectories, computed by the ruckig library.
+
+L. Berscheid, T. Kroeger, "Jerk-limited Real-time Trajectory Generation with Arbitrary Target
+States", Robotics: Science and Systems 2021.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from ruckig import (
+    ControlInterface,
+    InputParameter,
+    Result,
+    Ruckig,
+    RuckigError,
+    Synchronization,
+)
+from ruckig import Trajectory as RuckigTrajectory
+
+from twin.motion.errors import PlanningError
+from twin.motion.limits import JointLimits
+
+
+class Trajectory(Protocol):
+    """A computed trajectory of one or more degrees of freedom."""
+
+    @property
+    def duration(self) -> float:
+        """Length [s]."""
+        ...
+
+    def at_time(self, time: float, /) -> tuple[list[float], list[float], list[float]]:
+        """Positions, velocities and accelerations at a time."""
+        ...
+
+
+LIMIT_FRACTIONS = (1.0, 1.0 - 1e-6, 1.0 - 1e-3, 0.97)
+"""Tried in turn. Start states that sit exactly on a limit are numerically delicate; a little
+less of all limits moves the solution away from them and leaves the start state as it is."""
+
+
+def solve_position(
+    limits: Sequence[JointLimits],
+    position: Sequence[float],
+    velocity: Sequence[float],
+    acceleration: Sequence[float],
+    target: Sequence[float],
+) -> Trajectory:
+    """Fastest motion of all joints to rest at a target, arriving at the same time.
+
+    A start state above a limit is first brought back below it, as fast as the jerk allows.
+
+    Raises:
+        PlanningError: no trajectory was found.
+    """
+    problem = _problem(limits, position, velocity, acceleration)
+    problem.target_position = list(target)
+    return _solve(problem, limits)
+
+
+def solve_stop(
+    limits: Sequence[JointLimits],
+    position: Sequence[float],
+    velocity: Sequence[float],
+    acceleration: Sequence[float],
+) -> Trajectory:
+    """Fastest motion of each joint to rest, wherever that is.
+
+    Raises:
+        PlanningError: no trajectory was found.
+    """
+    problem = _problem(limits, position, velocity, acceleration)
+    problem.control_interface = ControlInterface.Velocity
+    problem.synchronization = Synchronization.No
+    return _solve(problem, limits)
+
+
+def _problem(
+    limits: Sequence[JointLimits],
+    position: Sequence[float],
+    velocity: Sequence[float],
+    acceleration: Sequence[float],
+) -> InputParameter:
+    problem = InputParameter(len(limits))
+    problem.current_position = list(position)
+    problem.current_velocity = list(velocity)
+    problem.current_acceleration = list(acceleration)
+    return problem
+
+
+def _solve(problem: InputParameter, limits: Sequence[JointLimits]) -> Trajectory:
+    solver = Ruckig(len(limits))
+    trajectory: Trajectory = RuckigTrajectory(len(limits))
+    result = Result.Error
+    for fraction in LIMIT_FRACTIONS:
+        problem.max_velocity = [joint.velocity_mm_s * fraction for joint in limits]
+        problem.max_acceleration = [joint.acceleration_mm_s2 * fraction for joint in limits]
+        problem.max_jerk = [joint.jerk_mm_s3 * fraction for joint in limits]
+        try:
+            result = solver.calculate(problem, trajectory)
+        except RuckigError as error:
+            msg = f"the planner refused the motion: {error}"
+            raise PlanningError(msg) from error
+        if result in {Result.Working, Result.Finished}:
+            return trajectory
+    msg = f"the planner found no motion ({result.name})"
+    raise PlanningError(msg)
