@@ -85,6 +85,7 @@ class RobotGeometry(BaseModel):
     e3z_mm: SignedLength = Field(150.0, description="e3z, plug tip at rho3 = 0, along z'")
     e4y_mm: SignedLength = Field(0.0, description="e4y, V in the frame of the slide")
     e4z_mm: SignedLength = Field(0.0, description="e4z, V in the frame of the slide")
+    plug_diameter_mm: PositiveLength = Field(65.0, description="outer diameter of the plug")
     theta_rad: float = Field(
         math.radians(-10.0),
         gt=-math.pi / 3,
