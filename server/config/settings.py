@@ -17,6 +17,7 @@ from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
 from twin.geometry import RobotGeometry
+from twin.motion.limits import MotionLimits
 
 
 class Settings(BaseSettings):
@@ -37,6 +38,7 @@ class Settings(BaseSettings):
     storage: StorageSettings = StorageSettings()
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()
+    motion: MotionLimits = MotionLimits()
     camera: CameraSettings = Field(default_factory=CameraSettings)
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()

@@ -1,0 +1,62 @@
+"""The command `plugpilot`. Each subcommand is imported only when it is called."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import click
+
+from server.errors import PlugPilotError
+
+
+@dataclass(frozen=True, slots=True)
+class _Subcommand:
+    module: str  # holds a click command of the subcommand's name
+    summary: str  # stands here too, so that --help imports nothing
+
+
+_SUBCOMMANDS = {
+    "serve": _Subcommand("server.cli.serve", "Run the robot, its pages and its API."),
+    "simulate": _Subcommand("server.cli.simulate", "Run jobs on the simulator, without pages."),
+    "locate": _Subcommand("server.cli.locate", "Find the socket in pictures."),
+    "config": _Subcommand("server.cli.config", "Print the settings in force."),
+    "version": _Subcommand("server.cli.version", "Print the version."),
+}
+
+
+class _LazyGroup(click.Group):
+    """A group that knows its subcommands by name and shows errors as sentences."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        del ctx
+        return list(_SUBCOMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        del ctx
+        if cmd_name not in _SUBCOMMANDS:
+            return None
+        command = getattr(importlib.import_module(_SUBCOMMANDS[cmd_name].module), cmd_name)
+        if not isinstance(command, click.Command):
+            msg = f"{_SUBCOMMANDS[cmd_name].module}.{cmd_name} is no click command"
+            raise TypeError(msg)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        del ctx
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, command.summary) for name, command in _SUBCOMMANDS.items()])
+
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401 - as click declares it
+        try:
+            return super().invoke(ctx)
+        except PlugPilotError as error:
+            click.echo(f"{error.detail}\n{error.remedy}", err=True)
+            sys.exit(2)
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+def main() -> None:
+    """PlugPilot: the software of the robot that plugs an electric car in."""

@@ -1,0 +1,53 @@
+"""`plugpilot serve`: the robot, its pages and its API in one process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from server.config import Option, load_settings
+
+
+@click.command()
+@click.option(
+    "--config",
+    type=click.Path(path_type=Path),
+    help="Configuration file.  [default: $PLUGPILOT_CONFIG, else ./plugpilot.toml if there is one]",
+)
+@click.option("--host", help="Address to listen on.  [server.host, 127.0.0.1]")
+@click.option("--port", help="TCP port, 0 for any free one.  [server.port, 8000]")
+@click.option("--data-dir", help="Folder of database and recordings.  [storage.data_dir, ./data]")
+@click.option("--driver", help="simulator or arduino.  [robot.driver, simulator]")
+@click.option("--speed", help="Simulated seconds per second.  [simulation.speed, 1]")
+@click.option("--seed", help="Chance of the simulated world.  [simulation.seed, 0]")
+def serve(
+    *,
+    config: Path | None,
+    host: str | None,
+    port: str | None,
+    data_dir: str | None,
+    driver: str | None,
+    speed: str | None,
+    seed: str | None,
+) -> None:
+    """Run the robot, its pages and its API until it is interrupted.
+
+    An option wins over an environment variable such as PLUGPILOT_SERVER__PORT, that wins over the
+    configuration file. `plugpilot config` prints what is in force.
+    """
+    settings = load_settings(
+        config,
+        [
+            Option("--host", "server.host", host),
+            Option("--port", "server.port", port),
+            Option("--data-dir", "storage.data_dir", data_dir),
+            Option("--driver", "robot.driver", driver),
+            Option("--speed", "simulation.speed", speed),
+            Option("--seed", "simulation.seed", seed),
+        ],
+    )
+    # imported late: wrong settings are told without waiting for vision and the scene to load
+    from server.serving import serve as run  # noqa: PLC0415
+
+    run(settings)
