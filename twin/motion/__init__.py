@@ -13,6 +13,7 @@ from twin.motion.plan import JointState, MotionPlan, MotionSamples
 from twin.motion.point_to_point import JointPlan, minimum_time_s, plan_joint_move
 from twin.motion.segments import Segment
 from twin.motion.stop import plan_stop
+from twin.motion.straight_line import StraightLinePlan, plan_straight_line
 
 __all__ = [
     "InvalidMotionError",
@@ -25,10 +26,12 @@ __all__ = [
     "MotionSamples",
     "PlanningError",
     "Segment",
+    "StraightLinePlan",
     "UnsafePlanError",
     "check_plan",
     "minimum_time_s",
     "plan_joint_move",
     "plan_segments",
     "plan_stop",
+    "plan_straight_line",
 ]

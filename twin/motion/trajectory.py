@@ -7,7 +7,7 @@ States", Robotics: Science and Systems 2021.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from ruckig import (
     ControlInterface,
@@ -21,6 +21,14 @@ from ruckig import Trajectory as RuckigTrajectory
 
 from twin.motion.errors import PlanningError
 from twin.motion.limits import JointLimits
+
+
+class AxisLimits(NamedTuple):
+    """Limits of one degree of freedom that is not a joint."""
+
+    velocity_mm_s: float
+    acceleration_mm_s2: float
+    jerk_mm_s3: float
 
 
 class Trajectory(Protocol):
@@ -42,7 +50,7 @@ less of all limits moves the solution away from them and leaves the start state 
 
 
 def solve_position(
-    limits: Sequence[JointLimits],
+    limits: Sequence[JointLimits | AxisLimits],
     position: Sequence[float],
     velocity: Sequence[float],
     acceleration: Sequence[float],
@@ -61,7 +69,7 @@ def solve_position(
 
 
 def solve_stop(
-    limits: Sequence[JointLimits],
+    limits: Sequence[JointLimits | AxisLimits],
     position: Sequence[float],
     velocity: Sequence[float],
     acceleration: Sequence[float],
@@ -78,7 +86,7 @@ def solve_stop(
 
 
 def _problem(
-    limits: Sequence[JointLimits],
+    limits: Sequence[JointLimits | AxisLimits],
     position: Sequence[float],
     velocity: Sequence[float],
     acceleration: Sequence[float],
@@ -90,7 +98,7 @@ def _problem(
     return problem
 
 
-def _solve(problem: InputParameter, limits: Sequence[JointLimits]) -> Trajectory:
+def _solve(problem: InputParameter, limits: Sequence[JointLimits | AxisLimits]) -> Trajectory:
     solver = Ruckig(len(limits))
     trajectory: Trajectory = RuckigTrajectory(len(limits))
     result = Result.Error
