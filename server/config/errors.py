@@ -2,8 +2,7 @@
 
 ConfigurationError
 ├── ConfigurationFileError   the file cannot be read, or is not TOML
-├── InvalidSettingsError     values or keys that cannot be; lists all of them
-└── DataDirError             the data folder cannot be made or written
+└── InvalidSettingsError     values or keys that cannot be; lists all of them
 """
 
 from __future__ import annotations
@@ -33,11 +32,3 @@ class InvalidSettingsError(ConfigurationError):
 
     code: ClassVar[str] = "settings_invalid"
     title: ClassVar[str] = "Some settings cannot be"
-
-
-class DataDirError(ConfigurationError):
-    """The data folder cannot be made or written."""
-
-    code: ClassVar[str] = "data_dir_unwritable"
-    title: ClassVar[str] = "The data folder cannot be used"
-    remedy: ClassVar[str] = "Make it writable, or name another one: --data-dir or storage.data_dir."
