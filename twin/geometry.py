@@ -121,7 +121,8 @@ class RobotGeometry(BaseModel):
             msg = (
                 f"the legs never meet: with L = {self.leg_length_mm:g} mm they bridge less than "
                 f"{2 * self.leg_length_mm:g} mm, but their feet stay at least "
-                f"{math.hypot(max(closest, 0.0), rise):g} mm apart; lengthen leg_length_mm or the strokes"
+                f"{math.hypot(max(closest, 0.0), rise):g} mm apart; lengthen leg_length_mm or the "
+                "strokes"
             )
             raise ValueError(msg)
         if span - self.rho1.min_mm - self.rho2.min_mm <= 0:

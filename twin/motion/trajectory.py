@@ -12,7 +12,6 @@ from typing import NamedTuple, Protocol
 from ruckig import (
     ControlInterface,
     InputParameter,
-    Result,
     Ruckig,
     RuckigError,
     Synchronization,
@@ -101,17 +100,19 @@ def _problem(
 def _solve(problem: InputParameter, limits: Sequence[JointLimits | AxisLimits]) -> Trajectory:
     solver = Ruckig(len(limits))
     trajectory: Trajectory = RuckigTrajectory(len(limits))
-    result = Result.Error
+    failure: RuckigError | None = None
     for fraction in LIMIT_FRACTIONS:
-        problem.max_velocity = [joint.velocity_mm_s * fraction for joint in limits]
-        problem.max_acceleration = [joint.acceleration_mm_s2 * fraction for joint in limits]
-        problem.max_jerk = [joint.jerk_mm_s3 * fraction for joint in limits]
+        problem.max_velocity = [axis.velocity_mm_s * fraction for axis in limits]
+        problem.max_acceleration = [axis.acceleration_mm_s2 * fraction for axis in limits]
+        problem.max_jerk = [axis.jerk_mm_s3 * fraction for axis in limits]
         try:
-            result = solver.calculate(problem, trajectory)
+            solver.calculate(problem, trajectory)
         except RuckigError as error:
-            msg = f"the planner refused the motion: {error}"
-            raise PlanningError(msg) from error
-        if result in {Result.Working, Result.Finished}:
+            failure = error
+        else:
             return trajectory
-    msg = f"the planner found no motion ({result.name})"
-    raise PlanningError(msg)
+    msg = (
+        f"no motion was found for joints at {problem.current_position} mm that move at "
+        f"{problem.current_velocity} mm/s"
+    )
+    raise PlanningError(msg) from failure
