@@ -26,6 +26,9 @@ class InsertionSettings(Section):
     max_lateral_sigma_mm: float = Field(
         0.1, gt=0, le=1, description="Standard deviation of the socket's place, across the axis"
     )
+    max_tilt_deg: float = Field(
+        3.0, gt=0, le=10, description="Tilt of the socket that the plug holder can follow"
+    )
     measurement_frames: int = Field(
         3, ge=1, le=20, description="Pictures that one measurement of the socket averages"
     )

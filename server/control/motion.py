@@ -67,6 +67,11 @@ class Motion:
         """The plan being followed."""
         return self._plan
 
+    @property
+    def last_leg(self) -> bool:
+        """Too late to change the target: the board has, or is about to get, all there is."""
+        return len(self._pending) <= self._look_ahead
+
     def interrupt(self, reason: Exception) -> None:
         """Make ``run`` stop the robot and raise ``reason`` at the next sample."""
         self._interruption = reason
@@ -103,7 +108,7 @@ class Motion:
             self._watch(state)
 
     def _arrived(self, state: RobotState) -> bool:
-        end = self._tail.end if self._tail else self._plan.end
+        end = self._tail.end if self._tail else self._plan.end.position
         return (
             not self._pending
             and state.board is BoardState.READY
@@ -134,11 +139,7 @@ class Motion:
 
     def _tail_state(self) -> JointState:
         if self._tail is None:
-            return JointState(
-                self._plan.position_at(0.0),
-                self._plan.velocity_at(0.0),
-                self._plan.acceleration_at(0.0),
-            )
+            return self._plan.start
         at_rest = self._sent_of_plan_s >= self._plan.duration_s - 1e-9
         return JointState(
             self._tail.end,

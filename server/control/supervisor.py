@@ -228,13 +228,18 @@ class Supervisor:
         await self._until(lambda state: state.homed and state.board is BoardState.READY)
         await self.plug.is_free()
 
+    async def halt(self, lease: Lease) -> None:
+        """Bring the robot to rest (category 2) without latching anything."""
+        lease.require()
+        await self._command(self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
+
     async def set_force_limit(self, lease: Lease, force_n: float) -> None:
         """Cap the insertion force on the board [N]."""
         lease.require()
         await self._command(self._driver.set_force_limit(force_n))
 
     def start_motion(self, lease: Lease, plan: MotionPlan, watch: Watch | None = None) -> Motion:
-        """Check a plan along its whole length and prepare its execution (``Motion.run``).
+        """Check a plan along its whole length and prepare its execution (``run``).
 
         Raises:
             ControlError: the robot is not ready, the plug forbids it, or it leaves the limits.
@@ -250,17 +255,20 @@ class Supervisor:
         self._motion = Motion(self._driver, self._link.identity, self.telemetry, plan, watch)
         return self._motion
 
-    async def follow(
-        self, lease: Lease, plan: MotionPlan, watch: Watch | None = None
-    ) -> RobotState:
-        """Execute a plan to its end and return the last sample."""
-        motion = self.start_motion(lease, plan, watch)
+    async def run(self, motion: Motion) -> RobotState:
+        """Execute a prepared motion to its end and return the last sample."""
         await self.plug.about_to_leave_park()
         try:
             return await motion.run()
         finally:
             if self._motion is motion:
                 self._motion = None
+
+    async def follow(
+        self, lease: Lease, plan: MotionPlan, watch: Watch | None = None
+    ) -> RobotState:
+        """Check and execute a plan to its end and return the last sample."""
+        return await self.run(self.start_motion(lease, plan, watch))
 
     async def move_joints(
         self, lease: Lease, target: JointPosition, watch: Watch | None = None
@@ -288,7 +296,8 @@ class Supervisor:
     def _check(self, plan: MotionPlan) -> None:
         step_s = plan.duration_s / PATH_SAMPLES
         self.plug.check(
-            plan.start, [plan.position_at(step_s * i) for i in range(1, PATH_SAMPLES + 1)]
+            plan.start.position,
+            [plan.position_at(step_s * i) for i in range(1, PATH_SAMPLES + 1)],
         )
         try:
             check_plan(self.geometry, plan)

@@ -1,0 +1,71 @@
+"""From a measured socket to the joints of the way in."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from server.config.insertion import InsertionSettings
+from server.control.plug_guard import Corridor
+from server.localisation.errors import SocketUnreachableError
+from server.localisation.socket_pose import SocketPose
+from twin.geometry import RobotGeometry
+from twin.joints import JointPosition, TipPosition
+from twin.kinematics import KinematicsError, gamma
+
+
+def tip_on_way_in(geometry: RobotGeometry, socket: SocketPose, depth_mm: float) -> TipPosition:
+    """Plug tip on the way in, ``depth_mm`` behind the socket's face (negative: before it).
+
+    The way in is the robot's own insertion axis through the centre of the face: the small tilt
+    of a parked car is taken up by the plug holder.
+    """
+    place = np.array(socket.entry) + depth_mm * np.array(geometry.insertion_axis)
+    return TipPosition(*(float(c) for c in place))
+
+
+def pre_insertion(
+    geometry: RobotGeometry, socket: SocketPose, settings: InsertionSettings
+) -> JointPosition:
+    """Joints with the plug before the socket, ready to go in.
+
+    Raises:
+        SocketUnreachableError: the plug cannot get there, or from there not all the way in.
+    """
+    try:
+        gamma.inverse(geometry, tip_on_way_in(geometry, socket, settings.depth_mm))
+        return gamma.inverse(
+            geometry, tip_on_way_in(geometry, socket, -settings.pre_insertion_distance_mm)
+        )
+    except KinematicsError as error:
+        entry = socket.entry
+        raise SocketUnreachableError(
+            f"The socket is at x = {entry.x_mm:.0f}, y = {entry.y_mm:.0f}, "
+            f"z = {entry.z_mm:.0f} mm, and {error}.",
+            x_mm=round(entry.x_mm, 1),
+            y_mm=round(entry.y_mm, 1),
+            z_mm=round(entry.z_mm, 1),
+        ) from error
+
+
+def corridor(
+    geometry: RobotGeometry,
+    at: JointPosition,
+    socket: SocketPose,
+    settings: InsertionSettings,
+) -> Corridor:
+    """The way in from where the robot stands: rho1 and rho2 as they are, rho3 by the socket."""
+    face = gamma.platform_for_tip(geometry, socket.entry)[1]
+    return Corridor(
+        rho1_mm=at.rho1_mm,
+        rho2_mm=at.rho2_mm,
+        clear_rho3_mm=face - settings.pre_insertion_distance_mm,
+        face_rho3_mm=face,
+        depth_rho3_mm=face + settings.depth_mm,
+    )
+
+
+def lateral_error_mm(geometry: RobotGeometry, at: JointPosition, socket: SocketPose) -> float:
+    """Distance between the plug's way and the socket's centre, across the insertion axis [mm]."""
+    axis = np.array(geometry.insertion_axis)
+    offset = np.array(gamma.forward(geometry, at)) - np.array(socket.entry)
+    return float(np.linalg.norm(offset - (offset @ axis) * axis))

@@ -1,0 +1,63 @@
+"""What a phase has at hand."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from drivers.station import StationDriver
+from server.api.schema.vehicles import Vehicle
+from server.config.settings import Settings
+from server.control.lease import Lease
+from server.control.supervisor import Supervisor
+from server.jobs.journal import Journal
+from server.localisation.eye import Eye
+from server.localisation.socket_pose import SocketPose
+from twin.joints import JointPosition
+
+
+@dataclass(slots=True)
+class JobContext:
+    """The robot, the camera, the station and the job that uses them.
+
+    Attributes:
+        supervisor: Owner of the robot.
+        lease: Proof of control for the length of the job.
+        eye: Camera and locator.
+        station: The charging station.
+        vehicle: Whose socket it is about.
+        settings: The whole configuration.
+        journal: Of this job.
+        accepted_at_s: Event loop time at which the job was accepted.
+        start: Where the robot waited when its motion began.
+        finish: Set when somebody wants the charging to end now.
+        socket: The socket as last measured.
+        energy_wh: Energy charged so far; None before the charging began.
+        on_sighting: Shows every new pose of the socket.
+    """
+
+    supervisor: Supervisor
+    lease: Lease
+    eye: Eye
+    station: StationDriver
+    vehicle: Vehicle
+    settings: Settings
+    journal: Journal
+    accepted_at_s: float
+    start: JointPosition
+    finish: asyncio.Event = field(default_factory=asyncio.Event)
+    socket: SocketPose | None = None
+    energy_wh: float | None = None
+    on_sighting: Callable[[SocketPose], None] = lambda _: None
+
+    def see(self, socket: SocketPose) -> None:
+        """Take over a new pose of the socket and show it."""
+        self.socket = socket
+        self.on_sighting(socket)
+
+    def require_socket(self) -> SocketPose:
+        """The socket as last measured; a phase that needs it comes after one that measures it."""
+        if self.socket is None:
+            raise AssertionError("the socket was not measured before it was needed")
+        return self.socket

@@ -1,0 +1,101 @@
+"""The journal of one job: every step is on disk before the robot takes it."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+from typing import Any
+
+from server.api.problems import problem_from
+from server.api.schema.jobs import Job, JobEvent
+from server.errors import PlugPilotError
+from server.jobs.model import JobPhase, JobState
+from server.storage.jobs import JobStore
+from server.timing import Calendar
+
+_log = logging.getLogger(__name__)
+
+
+class Journal:
+    """Keeps one job's state and what happened in it.
+
+    Args:
+        job: The job as it was accepted.
+        store: Where it is kept.
+        calendar: Dates of the entries.
+        changed: Called with the job after every change.
+        sequence: Number of the newest entry that is there already.
+    """
+
+    def __init__(
+        self,
+        job: Job,
+        store: JobStore,
+        calendar: Calendar,
+        changed: Callable[[Job], None],
+        *,
+        sequence: int = 0,
+    ) -> None:
+        self.job = job
+        self._store = store
+        self._calendar = calendar
+        self._changed = changed
+        self._sequence = sequence
+
+    async def begin(self, phase: JobPhase, message: str) -> None:
+        """Enter a phase. Returns when that is on disk, so do it before the first motion."""
+        now = self._calendar.now()
+        await self._record(
+            "phase_started",
+            message,
+            {},
+            phase=phase,
+            state=JobState.RUNNING,
+            phase_started_at=now,
+        )
+
+    async def note(self, kind: str, message: str, **data: Any) -> None:  # noqa: ANN401 - JSON
+        """Write down something that happened in the phase."""
+        await self._record(kind, message, data)
+
+    async def measured(self, kind: str, message: str, **results: float | None) -> None:
+        """Write down results of the job."""
+        result = self.job.result.model_copy(update=results)
+        await self._record(kind, message, dict(results), result=result)
+
+    async def want_cancel(self) -> None:
+        """Somebody asked to cancel."""
+        await self._record(
+            "cancel_requested", "Somebody asked to cancel.", {}, cancel_requested=True
+        )
+
+    async def end(self, state: JobState, message: str, error: PlugPilotError | None = None) -> None:
+        """The job is over."""
+        problem = problem_from(error) if error else None
+        data = {"code": problem.code, **problem.context} if problem else {}
+        await self._record(state.value, message, data, state=state, error=problem)
+
+    async def _record(
+        self,
+        kind: str,
+        message: str,
+        data: dict[str, Any],
+        **changes: Any,  # noqa: ANN401 - fields of Job
+    ) -> None:
+        now = self._calendar.now()
+        job = self.job.model_copy(update={**changes, "updated_at": now})
+        self._sequence += 1
+        event = JobEvent(
+            sequence=self._sequence,
+            at=now,
+            kind=kind,
+            phase=job.phase,
+            message=message[:500],
+            data=data,
+        )
+        self.job = job
+        # A cancelled caller must not leave the journal behind the truth.
+        await asyncio.shield(self._store.save(job, event))
+        self._changed(job)
+        _log.info("job %s, %s: %s", job.id, job.phase.value, message)

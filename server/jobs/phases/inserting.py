@@ -1,0 +1,80 @@
+"""Push the plug in along the insertion axis, watching force and depth."""
+
+from __future__ import annotations
+
+import asyncio
+
+from drivers.robot import RobotState
+from server.control.errors import ForceLimitError, RobotFaultError
+from server.jobs.approach import corridor, lateral_error_mm
+from server.jobs.context import JobContext
+from server.jobs.errors import InsertionDepthError, InsertionJammedError
+from server.jobs.model import JobPhase
+from twin.kinematics import gamma
+from twin.motion import minimum_time_s, plan_straight_line
+
+
+async def run(job: JobContext) -> None:
+    """Insert to the full depth.
+
+    Raises:
+        InsertionJammedError: the force reached its limit before the plug was in.
+        InsertionDepthError: the plug came to rest at the wrong depth.
+    """
+    await job.journal.begin(JobPhase.INSERTING, "Pushing the plug in.")
+    supervisor, settings = job.supervisor, job.settings.insertion
+    geometry, socket = supervisor.geometry, job.require_socket()
+    at = supervisor.telemetry.require().commanded.position
+    way = corridor(geometry, at, socket, settings)
+    axis_error_mm = lateral_error_mm(geometry, at, socket)
+    await supervisor.set_force_limit(job.lease, settings.force_limit_n)
+    # On disk before the plug can touch the socket.
+    await supervisor.plug.about_to_enter(way)
+    seated = at._replace(rho3_mm=way.depth_rho3_mm)
+    plan = plan_straight_line(geometry, supervisor.limits, at, gamma.forward(geometry, seated))
+    forces = _ForceWatch(settings.force_limit_n)
+    try:
+        await supervisor.follow(job.lease, plan, forces.watch)
+    except (ForceLimitError, RobotFaultError) as error:
+        depth_mm = supervisor.telemetry.require().measured.position.rho3_mm - way.face_rho3_mm
+        raise InsertionJammedError(
+            f"{error.detail} The plug was {depth_mm:.1f} mm deep of {settings.depth_mm:.0f} mm.",
+            depth_mm=round(depth_mm, 2),
+            max_force_n=round(forces.largest_n, 1),
+        ) from error
+    plugged_after_s = asyncio.get_running_loop().time() - job.accepted_at_s
+    depth_mm = supervisor.telemetry.require().measured.position.rho3_mm - way.face_rho3_mm
+    limit_s = minimum_time_s(supervisor.limits, job.start, at) + minimum_time_s(
+        supervisor.limits, at, seated
+    )
+    await job.journal.measured(
+        "seated",
+        f"The plug is {depth_mm:.1f} mm deep.",
+        insertion_depth_mm=round(depth_mm, 3),
+        lateral_error_mm=round(axis_error_mm, 4),
+        max_force_n=round(forces.largest_n, 1),
+        plugged_after_s=round(plugged_after_s, 3),
+        limit_duration_s=round(limit_s, 3),
+    )
+    if abs(depth_mm - settings.depth_mm) > settings.depth_tolerance_mm:
+        raise InsertionDepthError(
+            f"The plug is {depth_mm:.1f} mm deep instead of {settings.depth_mm:.0f} mm.",
+            depth_mm=round(depth_mm, 2),
+        )
+
+
+class _ForceWatch:
+    """Remembers the largest force and stops the motion above the limit."""
+
+    def __init__(self, limit_n: float) -> None:
+        self.largest_n = 0.0
+        self._limit_n = limit_n
+
+    def watch(self, state: RobotState) -> None:
+        self.largest_n = max(self.largest_n, state.force_n)
+        if state.force_n > self._limit_n:
+            raise ForceLimitError(
+                f"The force reached {state.force_n:.0f} N; the limit is {self._limit_n:.0f} N.",
+                force_n=round(state.force_n, 1),
+                limit_n=self._limit_n,
+            )

@@ -1,0 +1,103 @@
+"""Find the label: look from here first, then from where it may be seen."""
+
+from __future__ import annotations
+
+import math
+
+from server.jobs.approach import pre_insertion
+from server.jobs.context import JobContext
+from server.jobs.errors import SocketTooSkewedError
+from server.jobs.model import JobPhase
+from server.localisation.errors import LabelNotFoundError
+from server.localisation.looks import Look, LookPlanner
+from server.localisation.socket_pose import SocketPose
+from twin.joints import JointPosition, TipPosition
+from twin.kinematics import gamma
+
+HERE_MM = 0.5
+"""A look this near needs no motion."""
+
+
+async def run(job: JobContext) -> None:
+    """Find the socket and make sure that the plug can get there.
+
+    Raises:
+        LabelNotFoundError: the label is in none of the looks.
+        SocketUnreachableError: the socket is out of reach.
+        SocketTooSkewedError: the socket is tilted too much.
+        CameraDownError: the camera does not deliver.
+    """
+    await job.journal.begin(JobPhase.LOCATING, "Looking for the label beside the socket.")
+    socket = await _search(job)
+    job.see(socket)
+    refuse_skewed(job, socket)
+    pre_insertion(job.supervisor.geometry, socket, job.settings.insertion)
+    entry = socket.entry
+    await job.journal.note(
+        "label_found",
+        "Found the label.",
+        x_mm=round(entry.x_mm, 2),
+        y_mm=round(entry.y_mm, 2),
+        z_mm=round(entry.z_mm, 2),
+        lateral_sigma_mm=round(socket.lateral_sigma_mm, 4),
+        tilt_deg=round(math.degrees(socket.tilt_rad(job.supervisor.geometry)), 2),
+    )
+
+
+def refuse_skewed(job: JobContext, socket: SocketPose) -> None:
+    """Raise SocketTooSkewedError when the plug holder cannot follow the socket's tilt."""
+    tilt_deg = math.degrees(socket.tilt_rad(job.supervisor.geometry))
+    limit_deg = job.settings.insertion.max_tilt_deg
+    if tilt_deg > limit_deg:
+        raise SocketTooSkewedError(
+            f"The socket is tilted by {tilt_deg:.1f} degrees; "
+            f"the plug can follow {limit_deg:.1f} degrees.",
+            tilt_deg=round(tilt_deg, 2),
+            limit_deg=limit_deg,
+        )
+
+
+async def _search(job: JobContext) -> SocketPose:
+    insertion = job.settings.insertion
+    socket = await job.eye.look(job.vehicle)
+    if socket is not None:
+        return socket
+    planner = LookPlanner(
+        job.supervisor.geometry,
+        job.eye.mount,
+        job.eye.optics,
+        job.vehicle,
+        insertion_depth_mm=insertion.depth_mm,
+        approach_mm=insertion.pre_insertion_distance_mm,
+    )
+    joints = job.supervisor.telemetry.require().commanded.position
+    here = gamma.platform(job.supervisor.geometry, joints)
+    looks = 1
+    for look in planner.looks(here.x_mm, here.y_mm, joints.rho3_mm):
+        target = _joints_at(job, look)
+        if math.dist((look.x_mm, look.y_mm), here) > HERE_MM:
+            await job.supervisor.move_joints(job.lease, target)
+            socket = await job.eye.look(job.vehicle)
+            looks += 1
+            await job.journal.note(
+                "look",
+                "Looked from another place.",
+                x_mm=round(look.x_mm, 1),
+                y_mm=round(look.y_mm, 1),
+                found=socket is not None,
+            )
+            if socket is not None:
+                return socket
+    raise LabelNotFoundError(
+        f"The label of {job.vehicle.name} was in none of {looks} pictures "
+        "that together show every place where it may be.",
+        looks=looks,
+        payload=job.vehicle.label_payload,
+    )
+
+
+def _joints_at(job: JobContext, look: Look) -> JointPosition:
+    geometry = job.supervisor.geometry
+    rho3_mm = job.supervisor.telemetry.require().commanded.position.rho3_mm
+    dy_mm, z_mm = gamma.tip_offset(geometry, rho3_mm)
+    return gamma.inverse(geometry, TipPosition(look.x_mm, look.y_mm + dy_mm, z_mm))

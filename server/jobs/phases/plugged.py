@@ -1,0 +1,40 @@
+"""The plug is in: does the station see the car?"""
+
+from __future__ import annotations
+
+import asyncio
+
+from drivers.station import PilotState, StationError
+from server.jobs.context import JobContext
+from server.jobs.errors import NotConnectedError, StationUnsafeError
+from server.jobs.model import JobPhase
+
+CONTACT_TIMEOUT_S = 5.0
+POLL_S = 0.2
+
+
+async def run(job: JobContext) -> None:
+    """Wait until the control pilot shows a connected car.
+
+    Raises:
+        NotConnectedError: it does not.
+        StationUnsafeError: the station does not answer, or reports a fault.
+    """
+    await job.journal.begin(JobPhase.PLUGGED, "The plug is in. Asking the charging station.")
+    loop = asyncio.get_running_loop()
+    deadline_s = loop.time() + CONTACT_TIMEOUT_S
+    while True:
+        try:
+            pilot = (await job.station.snapshot()).pilot
+        except StationError as error:
+            raise StationUnsafeError(str(error)) from error
+        if pilot in {PilotState.B, PilotState.C, PilotState.D}:
+            await job.journal.note("connected", "The charging station sees the car.")
+            return
+        if loop.time() > deadline_s:
+            raise NotConnectedError(
+                f"The plug is in, but after {CONTACT_TIMEOUT_S:.0f} s the station is still in "
+                f"state {pilot.value}.",
+                pilot=pilot.value,
+            )
+        await asyncio.sleep(POLL_S)

@@ -1,0 +1,125 @@
+"""Pull the plug out along the insertion axis, watching force and station."""
+
+from __future__ import annotations
+
+import asyncio
+
+from drivers.robot import RobotState
+from drivers.station import StationDriver, StationError
+from server.control.errors import ForceLimitError, RobotFaultError
+from server.control.plug_guard import Corridor
+from server.jobs.context import JobContext
+from server.jobs.errors import StationUnsafeError, StillLockedError, StillUnderLoadError
+from server.jobs.model import JobPhase
+from server.jobs.phases.releasing import is_safe
+from twin.kinematics import gamma
+from twin.motion import plan_straight_line
+
+WATCH_S = 0.2
+SILENCE_LIMIT_S = 1.0
+
+
+async def run(job: JobContext) -> None:
+    """Pull the plug out, or stop at the first sign that it must not be.
+
+    Raises:
+        StillLockedError: it takes more than the allowed force.
+        StillUnderLoadError: current flows; the motion was stopped.
+        StationUnsafeError: the station went silent; the motion was stopped.
+    """
+    await job.journal.begin(JobPhase.WITHDRAWING, "Pulling the plug out.")
+    supervisor, settings = job.supervisor, job.settings.insertion
+    await supervisor.set_force_limit(job.lease, settings.withdrawal_force_limit_n)
+    guard = _Guard(settings.withdrawal_force_limit_n)
+    watching = asyncio.create_task(guard.watch_station(job.station), name="station watch")
+    try:
+        corridor = supervisor.plug.corridor
+        if corridor is None:
+            await _withdraw_blindly(job, guard)
+        else:
+            await _withdraw(job, corridor, guard)
+    except (ForceLimitError, RobotFaultError) as error:
+        raise StillLockedError(error.detail, max_pull_n=round(guard.largest_pull_n, 1)) from error
+    finally:
+        watching.cancel()
+        await asyncio.gather(watching, return_exceptions=True)
+    await supervisor.plug.is_free()
+    await job.journal.note(
+        "withdrawn", "The plug is out.", max_pull_n=round(guard.largest_pull_n, 1)
+    )
+
+
+async def _withdraw(job: JobContext, corridor: Corridor, guard: _Guard) -> None:
+    """Back to where the insertion began."""
+    supervisor = job.supervisor
+    at = supervisor.telemetry.require().commanded.position
+    if at.rho3_mm <= corridor.clear_rho3_mm:
+        return
+    clear = gamma.forward(supervisor.geometry, at._replace(rho3_mm=corridor.clear_rho3_mm))
+    plan = plan_straight_line(supervisor.geometry, supervisor.limits, at, clear)
+    await supervisor.follow(job.lease, plan, guard.check)
+
+
+async def _withdraw_blindly(job: JobContext, guard: _Guard) -> None:
+    """Nobody knows how deep the plug is: all the way back, along the axis, to the switch."""
+    homing = asyncio.create_task(job.supervisor.withdraw_home(job.lease), name="withdrawal")
+    alarm = asyncio.create_task(guard.alarmed.wait(), name="station alarm")
+    try:
+        await asyncio.wait({homing, alarm}, return_when=asyncio.FIRST_COMPLETED)
+        if not homing.done():
+            await job.supervisor.halt(job.lease)
+        await asyncio.gather(homing, return_exceptions=True)
+        guard.raise_alarm()
+        homing.result()
+    finally:
+        for task in (homing, alarm):
+            task.cancel()
+        await asyncio.gather(homing, alarm, return_exceptions=True)
+
+
+class _Guard:
+    """Stops the withdrawal on force, load or a silent station."""
+
+    def __init__(self, limit_n: float) -> None:
+        self.largest_pull_n = 0.0
+        self._limit_n = limit_n
+        self.alarmed = asyncio.Event()
+        self._alarm: Exception | None = None
+
+    def raise_alarm(self) -> None:
+        if self._alarm is not None:
+            raise self._alarm
+
+    def check(self, state: RobotState) -> None:
+        self.raise_alarm()
+        self.largest_pull_n = max(self.largest_pull_n, -state.force_n)
+        if -state.force_n > self._limit_n:
+            raise ForceLimitError(
+                f"Pulling took {-state.force_n:.0f} N; the limit is {self._limit_n:.0f} N.",
+                force_n=round(state.force_n, 1),
+                limit_n=self._limit_n,
+            )
+
+    async def watch_station(self, station: StationDriver) -> None:
+        loop = asyncio.get_running_loop()
+        heard_s = loop.time()
+        while self._alarm is None:
+            try:
+                async with asyncio.timeout(SILENCE_LIMIT_S):
+                    snapshot = await station.snapshot()
+            except (StationError, TimeoutError) as error:
+                if loop.time() - heard_s >= SILENCE_LIMIT_S:
+                    self._alarm = StationUnsafeError(
+                        f"The charging station fell silent during the withdrawal: {error}"
+                    )
+            else:
+                heard_s = loop.time()
+                if not is_safe(snapshot, heard_s):
+                    self._alarm = StillUnderLoadError(
+                        "The charging station began to give power during the withdrawal "
+                        f"(state {snapshot.pilot.value}).",
+                        pilot=snapshot.pilot.value,
+                    )
+            if self._alarm is None:
+                await asyncio.sleep(WATCH_S)
+        self.alarmed.set()
