@@ -1,0 +1,8 @@
+"""Finds the QR label in a picture and says where it is, and how well that is known."""
+
+from server.vision.average import combine
+from server.vision.errors import VisionError
+from server.vision.label_pose import LabelPose, PoseSource
+from server.vision.locator import Gates, Locator
+
+__all__ = ["Gates", "LabelPose", "Locator", "PoseSource", "VisionError", "combine"]

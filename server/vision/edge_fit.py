@@ -1,0 +1,144 @@
+"""Least squares fit of the label's pose to every module edge of its code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.camera import CameraModel
+from server.vision.code_edges import CodeEdges
+from server.vision.edge_profiles import EdgeOffsets, edge_offsets
+from server.vision.projection import Array, perturbed
+
+MOST_ITERATIONS = 8
+_TUKEY = 4.685  # 95% efficient for normal residuals (Beaton and Tukey 1974)
+_LEAST_CONTRAST = 0.2  # of the median contrast; below it an edge says nothing
+_SMALLEST_SCALE_PX = 0.01
+_CONVERGED_PX = 1e-3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EdgeFit:
+    """Result of the fit.
+
+    Attributes:
+        T_camera_label: Pose, shape (4, 4), translation [mm].
+        covariance: Of (omega, tau) as server.vision.projection defines them, shape (6, 6).
+        rms_px: Root mean square distance of the inlying edges from the fit [px].
+        inlier_share: Share of the edges that agree with the fit, 0 to 1.
+        edge_count: Number of edges looked at.
+        spread_px: Outward shift of all black areas by ink, blur and gamma [px].
+    """
+
+    T_camera_label: Array
+    covariance: Array
+    rms_px: float
+    inlier_share: float
+    edge_count: int
+    spread_px: float
+
+
+def fit_edges(
+    image: NDArray[np.uint8],
+    camera: CameraModel,
+    edges: CodeEdges,
+    T_start: Array,
+    *,
+    inverted: bool = False,
+) -> EdgeFit | None:
+    """Gauss-Newton over six pose numbers and the edge spread, with Tukey's weights.
+
+    The spread is the seventh unknown because ink, blur and gamma move all black/white edges
+    apart; without it a dark picture looks like a nearer label.
+
+    Args:
+        image: Grey values, shape (height, width).
+        camera: Intrinsics and distortion.
+        edges: Edges of the code.
+        T_start: Start pose, within about half a module of the truth, shape (4, 4) [mm].
+        inverted: The code is white on black.
+
+    Returns:
+        The fit, or None where too few edges are visible to determine a pose.
+    """
+    pose, spread = T_start, 0.0
+    for _ in range(MOST_ITERATIONS):
+        measured = edge_offsets(image, camera, edges, pose, inverted=inverted)
+        system = _weigh(measured, spread)
+        if system is None:
+            return None
+        step = np.asarray(np.linalg.solve(system.normal, system.right), dtype=np.float64)
+        pose = perturbed(pose, step[:6])
+        spread += float(step[6])
+        if float(np.max(np.abs(system.design @ step))) < _CONVERGED_PX:
+            break
+    measured = edge_offsets(image, camera, edges, pose, inverted=inverted)
+    system = _weigh(measured, spread)
+    if system is None:
+        return None
+    return EdgeFit(
+        T_camera_label=pose,
+        covariance=system.covariance(),
+        rms_px=system.rms_px,
+        inlier_share=float(np.sum(system.weights > 0.1)) / len(edges.points_mm),
+        edge_count=len(edges.points_mm),
+        spread_px=spread,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _System:
+    """The weighted linear system of one iteration.
+
+    Attributes:
+        design: Derivative of the residuals by (omega, tau, spread), shape (n, 7).
+        residuals: Measured minus predicted distance along the normal, shape (n,) [px].
+        weights: Tukey's weights, shape (n,).
+        efficiency: Mean derivative of Tukey's score, needed for the covariance.
+    """
+
+    design: Array
+    residuals: Array
+    weights: Array
+    efficiency: float
+
+    @property
+    def normal(self) -> Array:
+        return np.asarray((self.design.T * self.weights) @ self.design)
+
+    @property
+    def right(self) -> Array:
+        return np.asarray(self.design.T @ (self.weights * self.residuals))
+
+    @property
+    def rms_px(self) -> float:
+        return float(np.sqrt(np.sum(self.weights * self.residuals**2) / np.sum(self.weights)))
+
+    def covariance(self) -> Array:
+        """Sandwich covariance of an M-estimator (Huber 1981, 7.6), pose part, shape (6, 6)."""
+        inverse = np.linalg.inv(self.design.T @ self.design * self.efficiency)
+        scores = self.weights * self.residuals
+        count = len(scores)
+        middle = (self.design.T * scores**2) @ self.design * (count / (count - 7))
+        return np.asarray((inverse @ middle @ inverse)[:6, :6])
+
+
+def _weigh(measured: EdgeOffsets, spread: float) -> _System | None:
+    """Build the system from the edges with enough contrast; None if they are too few."""
+    rising = measured.visible & (measured.contrast > 0)
+    if np.count_nonzero(rising) < 24:
+        return None
+    enough = _LEAST_CONTRAST * float(np.median(measured.contrast[rising]))
+    used = rising & (measured.contrast > enough)
+    residuals = measured.offset_px[used] - spread
+    design = np.column_stack((measured.by_pose[used], np.ones(len(residuals))))
+    scale = 1.4826 * float(np.median(np.abs(residuals - np.median(residuals))))
+    relative = residuals / (_TUKEY * max(scale, _SMALLEST_SCALE_PX))
+    weights = np.where(np.abs(relative) < 1, (1 - relative**2) ** 2, 0.0)
+    if np.count_nonzero(weights) < 24:
+        return None
+    inside = relative[np.abs(relative) < 1] ** 2
+    efficiency = float(np.sum((1 - inside) * (1 - 5 * inside))) / len(residuals)
+    return _System(design, residuals, weights, max(efficiency, 0.2))
