@@ -1,0 +1,1 @@
+"""Browser tests of the web pages, with the machine's Chromium."""

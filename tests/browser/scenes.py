@@ -1,0 +1,173 @@
+"""Named live states, each as the server would send it."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+
+from server.api.schema.jobs import Job, JobResult
+from server.api.schema.live import Live, Service
+from server.api.schema.problem import Problem
+from server.api.schema.robot import (
+    CommandedMotion,
+    ControlHolder,
+    Joints,
+    MeasuredMotion,
+    Robot,
+    RobotFault,
+    Tip,
+)
+from server.api.schema.station import Station
+from server.control.model import PlugState, RobotMode
+from server.jobs.model import JobPhase, JobState, JobType
+
+NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
+_JOINTS = Joints(rho1_mm=203.2, rho2_mm=198.7, rho3_mm=92.4)
+_TIP = Tip(x_mm=651.3, y_mm=341.8, z_mm=412.6)
+
+LABEL_NOT_FOUND = Problem(
+    type="urn:plugpilot:problem:label_not_found",
+    title="Label not found",
+    status=409,
+    code="label_not_found",
+    detail="The camera did not find the label of Renault Zoe within 20 s.",
+    remedy="Park the car in front of the robot, clean the label, and try again.",
+)
+
+
+def robot(
+    mode: RobotMode = RobotMode.READY,
+    plug: PlugState = PlugState.PARKED,
+    *,
+    force_n: float = 0.4,
+    fault: RobotFault | None = None,
+    control: ControlHolder | None = None,
+) -> Robot:
+    """A robot in a state that goes together with its mode."""
+    known = mode not in {RobotMode.OFFLINE, RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.HOMING}
+    tip = _TIP if known else None
+    online = mode is not RobotMode.OFFLINE
+    return Robot(
+        mode=mode,
+        driver="Simulator",
+        plug=plug,
+        enabled=mode not in {RobotMode.OFFLINE, RobotMode.OFF, RobotMode.EMERGENCY_STOP},
+        homed=known,
+        measured=MeasuredMotion(joints=_JOINTS, tip=tip, force_n=force_n) if online else None,
+        commanded=CommandedMotion(joints=_JOINTS, tip=tip) if online else None,
+        control=control,
+        fault=fault,
+        socket=None,
+        updated_at=NOW,
+    )
+
+
+def job(
+    phase: JobPhase,
+    job_type: JobType = JobType.CHARGE,
+    state: JobState = JobState.RUNNING,
+    *,
+    seconds: float = 7,
+    error: Problem | None = None,
+    result: JobResult | None = None,
+    cancel_requested: bool = False,
+) -> Job:
+    """A job that has been in its phase for some seconds."""
+    return Job(
+        id="01956b1e-8c00-7000-8000-000000000001",
+        type=job_type,
+        state=state,
+        phase=phase,
+        vehicle_id="zoe",
+        target_energy_wh=None,
+        created_at=NOW - timedelta(seconds=seconds + 40),
+        updated_at=NOW,
+        phase_started_at=NOW - timedelta(seconds=seconds),
+        cancel_requested=cancel_requested,
+        result=result or JobResult(),
+        error=error,
+    )
+
+
+def station(power_w: float = 0, energy_wh: float = 0, *, online: bool = True) -> Station:
+    """The charging station; it charges when there is power."""
+    charging = power_w > 0
+    return Station(
+        name="Simulator",
+        online=online,
+        pilot="C" if charging else "A",
+        enabled=charging,
+        held=False,
+        contactor_closed=charging,
+        connector_locked=charging,
+        power_w=power_w,
+        currents_a=(power_w / 690,) * 3,
+        session_energy_wh=energy_wh,
+        updated_at=NOW,
+    )
+
+
+def live(
+    robot_now: Robot,
+    job_now: Job | None = None,
+    station_now: Station | None = None,
+    *,
+    speed: float = 10,
+) -> Live:
+    """Every section together."""
+    return Live(
+        robot=robot_now,
+        job=job_now,
+        station=station_now or station(),
+        service=Service(
+            version="0.1.0", simulated=True, speed=speed, camera_online=True, started_at=NOW
+        ),
+    )
+
+
+_MOVING = robot(RobotMode.MOVING, PlugState.FREE)
+_IN = robot(RobotMode.READY, PlugState.INSERTED)
+
+SCENES: dict[str, Live] = {
+    "ready": live(robot()),
+    "off": live(robot(RobotMode.OFF)),
+    "homing": live(robot(RobotMode.HOMING)),
+    "locating": live(robot(), job(JobPhase.LOCATING)),
+    "aligning": live(_MOVING, job(JobPhase.ALIGNING)),
+    "inserting": live(
+        robot(RobotMode.MOVING, PlugState.INSERTED, force_n=38.2), job(JobPhase.INSERTING)
+    ),
+    "charging": live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
+    "withdrawing": live(
+        robot(RobotMode.MOVING, PlugState.INSERTED),
+        job(JobPhase.WITHDRAWING, JobType.UNPLUG),
+    ),
+    "done": live(
+        robot(),
+        job(JobPhase.PARKING, state=JobState.SUCCEEDED, result=JobResult(energy_wh=21_480)),
+    ),
+    "plugged": live(_IN, job(JobPhase.PLUGGED, JobType.PLUG_IN, JobState.SUCCEEDED)),
+    "failed": live(robot(), job(JobPhase.LOCATING, state=JobState.FAILED, error=LABEL_NOT_FOUND)),
+    "unknown": live(robot(RobotMode.READY, PlugState.UNKNOWN)),
+    "stopped": live(robot(RobotMode.STOPPED, PlugState.FREE)),
+    "emergency": live(robot(RobotMode.EMERGENCY_STOP, PlugState.INSERTED)),
+    "fault": live(
+        robot(
+            RobotMode.FAULT,
+            PlugState.FREE,
+            fault=RobotFault(
+                code="following_error",
+                title="The arm lost its way",
+                detail="The left actuator was 4.2 mm behind its set point.",
+                remedy="Look whether something blocks the arm, then release and find position.",
+            ),
+        )
+    ),
+    "offline": live(robot(RobotMode.OFFLINE, PlugState.UNKNOWN)),
+    "jog": live(
+        robot(
+            RobotMode.MOVING,
+            PlugState.FREE,
+            control=ControlHolder(kind="jog", name="Anna", since=NOW),
+        )
+    ),
+}

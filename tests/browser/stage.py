@@ -1,0 +1,102 @@
+"""A server that serves the built pages and shows them one fixed live state."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from datetime import UTC, datetime
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
+from fastapi.responses import JSONResponse
+
+from server.api.pages import pages_router
+from server.api.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
+from server.api.schema.vehicles import Vehicle, VehicleList
+from tests.browser.scenes import LABEL_NOT_FOUND, SCENES
+
+STATIC_DIR = Path(__file__).resolve().parents[2] / "server" / "static"
+BEAT_S = 0.1
+
+VEHICLES = VehicleList(
+    items=[
+        Vehicle(id="id3", name="Volkswagen ID.3", label_payload="PLUGPILOT:1:id3"),
+        Vehicle(id="zoe", name="Renault Zoe", label_payload="PLUGPILOT:1:zoe"),
+    ]
+)
+
+
+class Stage:
+    """What the pages are shown, and what they asked for.
+
+    Attributes:
+        live: The state that every page sees.
+        requests: Method and path of every REST call, in order.
+        refuse_jobs: Answer new jobs with a problem.
+    """
+
+    def __init__(self) -> None:
+        self.live: Live = SCENES["ready"]
+        self.requests: list[str] = []
+        self.refuse_jobs = False
+        self.app = FastAPI()
+        self.app.include_router(pages_router(STATIC_DIR))
+        self.app.websocket("/api/v1/ws")(self._send_live)
+        self.app.get("/api/v1/vehicles")(self._vehicles)
+        self.app.post("/api/v1/{rest:path}")(self._accept)
+
+    async def _send_live(self, connection: WebSocket) -> None:
+        await connection.accept()
+        shown = self.live
+        sequence = 1
+        snapshot = SnapshotMessage(sequence=sequence, live=shown)
+        with suppress(WebSocketDisconnect):
+            await connection.send_text(snapshot.model_dump_json())
+            while True:
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(connection.receive_text(), BEAT_S)
+                sequence += 1
+                delta = DeltaMessage(sequence=sequence, changes=self._changes(shown))
+                shown = self.live
+                await connection.send_text(delta.model_dump_json(exclude_none=True))
+
+    def _changes(self, shown: Live) -> LiveChanges:
+        """What differs, and always the robot: its measurements never stand still."""
+        robot = self.live.robot.model_copy(update={"updated_at": datetime.now(UTC)})
+        differing = {
+            name: getattr(self.live, name)
+            for name in ("job", "station", "service")
+            if getattr(self.live, name) != getattr(shown, name)
+        }
+        return LiveChanges(robot=robot, **differing)
+
+    async def _vehicles(self) -> VehicleList:
+        return VEHICLES
+
+    async def _accept(self, request: Request, rest: str) -> JSONResponse:
+        self.requests.append(f"{request.method} /{rest}")
+        if rest == "jobs" and self.refuse_jobs:
+            return JSONResponse(
+                LABEL_NOT_FOUND.model_dump(), 409, media_type="application/problem+json"
+            )
+        return JSONResponse({}, 202)
+
+
+@contextmanager
+def serve(stage: Stage) -> Iterator[str]:
+    """Serves the stage from a thread of its own; gives its address."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    port = listener.getsockname()[1]
+    config = uvicorn.Config(stage.app, log_level="warning", ws="websockets-sansio", lifespan="off")
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        server.should_exit = True
+        thread.join()

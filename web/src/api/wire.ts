@@ -1,0 +1,29 @@
+/** Short names for the generated wire types. */
+import type { components } from "./schema";
+
+type Schemas = components["schemas"];
+
+export type Live = Schemas["Live"];
+export type Robot = Schemas["Robot"];
+export type RobotMode = Schemas["RobotMode"];
+export type PlugState = Schemas["PlugState"];
+export type Station = Schemas["Station"];
+export type Service = Schemas["Service"];
+export type Job = Schemas["Job"];
+export type JobType = Schemas["JobType"];
+export type JobState = Schemas["JobState"];
+export type JobPhase = Schemas["JobPhase"];
+export type JobRequest = Schemas["JobRequest"];
+export type Problem = Schemas["Problem"];
+export type Vehicle = Schemas["Vehicle"];
+export type VehicleList = Schemas["VehicleList"];
+
+export type SnapshotMessage = Schemas["SnapshotMessage"];
+export type DeltaMessage = Schemas["DeltaMessage"];
+export type ReplyMessage = Schemas["ReplyMessage"];
+export type ServerMessage = SnapshotMessage | DeltaMessage | ReplyMessage;
+
+export type StopKind = "stop" | "emergency_stop";
+
+/** The one protocol version this page speaks. */
+export const PROTOCOL_VERSION: SnapshotMessage["version"] = 1;

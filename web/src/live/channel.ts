@@ -1,0 +1,156 @@
+/** The WebSocket to the server: stays connected for ever, feeds the store, carries stops. */
+import type { ReplyMessage, ServerMessage, StopKind } from "@/api/wire";
+import type { LiveStore } from "./store";
+
+const BACK_OFF_MS = [250, 500, 1000, 2000, 4000, 8000] as const;
+const TICK_MS = 200;
+/** A connection this many stale periods silent is dead, even if no one said so. */
+const DEAD_AFTER_PERIODS = 5;
+const OPEN_PATIENCE_MS = 6000;
+const REPLY_PATIENCE_MS = 400;
+
+/** What the channel needs of the browser; tests bring their own. */
+export interface Surroundings {
+  open(): WebSocket;
+  nowMs(): number;
+  /** Uniform in [0, 1): spreads the reconnections of many pages after a restart. */
+  random(): number;
+}
+
+export function browserSurroundings(): Surroundings {
+  return {
+    open: () => {
+      const scheme = location.protocol === "https:" ? "wss" : "ws";
+      return new WebSocket(`${scheme}://${location.host}/api/v1/ws`);
+    },
+    nowMs: () => performance.now(),
+    random: Math.random,
+  };
+}
+
+export class LiveChannel {
+  private socket: WebSocket | null = null;
+  private attempts = 0;
+  private openedAtMs = 0;
+  private probed = false;
+  private retry: ReturnType<typeof setTimeout> | null = null;
+  private ticker: ReturnType<typeof setInterval> | null = null;
+  private nextId = 1;
+  private readonly waiting = new Map<number, (reply: ReplyMessage) => void>();
+
+  constructor(
+    private readonly store: LiveStore,
+    private readonly around: Surroundings = browserSurroundings(),
+  ) {}
+
+  /** Connects, and keeps connecting until close(). */
+  start(): void {
+    this.ticker ??= setInterval(() => this.tick(), TICK_MS);
+    this.connect();
+  }
+
+  close(): void {
+    if (this.ticker !== null) clearInterval(this.ticker);
+    if (this.retry !== null) clearTimeout(this.retry);
+    this.ticker = this.retry = null;
+    this.drop();
+  }
+
+  /** Tries again at once: the network came back or the page came to the front. */
+  hurry(): void {
+    if (this.retry === null) return;
+    clearTimeout(this.retry);
+    this.retry = null;
+    this.connect();
+  }
+
+  /** Sends a stop; resolves to whether the server confirmed it in time. */
+  stop(kind: StopKind): Promise<boolean> {
+    const { socket } = this;
+    if (socket === null || socket.readyState !== WebSocket.OPEN) return Promise.resolve(false);
+    const id = this.nextId++;
+    return new Promise((resolve) => {
+      const end = (ok: boolean): void => {
+        clearTimeout(timer);
+        this.waiting.delete(id);
+        resolve(ok);
+      };
+      const timer = setTimeout(() => end(false), REPLY_PATIENCE_MS);
+      this.waiting.set(id, (reply) => end(reply.ok));
+      socket.send(JSON.stringify({ type: kind, id }));
+    });
+  }
+
+  private connect(): void {
+    this.drop();
+    const socket = this.around.open();
+    this.socket = socket;
+    this.openedAtMs = this.around.nowMs();
+    this.probed = false;
+    socket.onmessage = (event: MessageEvent<string>) => {
+      this.receive(JSON.parse(event.data) as ServerMessage);
+    };
+    socket.onclose = () => {
+      this.store.lost();
+      this.reconnectLater();
+    };
+  }
+
+  private receive(message: ServerMessage): void {
+    const nowMs = this.around.nowMs();
+    this.probed = false;
+    switch (message.type) {
+      case "snapshot":
+        this.attempts = 0;
+        this.store.snapshot(message, nowMs);
+        break;
+      case "delta":
+        this.store.delta(message, nowMs);
+        break;
+      case "reply":
+        this.waiting.get(message.id)?.(message);
+        break;
+    }
+  }
+
+  private reconnectLater(): void {
+    this.drop();
+    const longest = BACK_OFF_MS[Math.min(this.attempts, BACK_OFF_MS.length - 1)]!;
+    this.attempts += 1;
+    const delayMs = longest * (0.7 + 0.6 * this.around.random());
+    this.retry = setTimeout(() => {
+      this.retry = null;
+      this.connect();
+    }, delayMs);
+  }
+
+  /** Asks a silent server for a sign of life, and gives a dead connection up. */
+  private tick(): void {
+    const nowMs = this.around.nowMs();
+    this.store.tick(nowMs);
+    if (this.socket === null) return;
+    const { heardAtMs, staleAfterMs } = this.store;
+    if (heardAtMs === null) {
+      if (nowMs - this.openedAtMs > OPEN_PATIENCE_MS) this.giveUp();
+    } else if (nowMs - heardAtMs > staleAfterMs * DEAD_AFTER_PERIODS) {
+      this.giveUp();
+    } else if (nowMs - heardAtMs > staleAfterMs / 2 && !this.probed) {
+      this.probed = true;
+      this.socket.send(JSON.stringify({ type: "resync" }));
+    }
+  }
+
+  private giveUp(): void {
+    this.store.lost();
+    this.reconnectLater();
+  }
+
+  /** Lets go of the socket without hearing of it again. */
+  private drop(): void {
+    const { socket } = this;
+    this.socket = null;
+    if (socket === null) return;
+    socket.onmessage = socket.onclose = null;
+    socket.close();
+  }
+}

@@ -1,0 +1,13 @@
+import { render } from "preact";
+import { App } from "./app";
+import { connect } from "./live/page";
+import "./style/tokens.css";
+import "./style/page.css";
+import "./style/controls.css";
+import "./style/cards.css";
+import "./style/picture.css";
+
+const root = document.getElementById("app");
+if (root === null) throw new Error("index.html has no element #app");
+connect();
+render(<App />, root);

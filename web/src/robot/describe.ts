@@ -1,0 +1,283 @@
+/** The state of the robot in a sentence, a picture and one thing to do. */
+import type { Job, Live, Robot } from "@/api/wire";
+import { formatEnergy } from "@/format";
+import { words } from "@/words";
+import { isActive, isMovingPhase } from "./job";
+
+export type Tone = "calm" | "busy" | "good" | "ask" | "problem";
+
+/** What the big button does. */
+export type ActionKind = "charge" | "finish" | "unplug" | "cancel" | "reset" | "confirm_plug";
+
+export interface Action {
+  readonly kind: ActionKind;
+  readonly label: string;
+}
+
+/** How far the arm is out, and the mark beside it. */
+export interface Scene {
+  readonly arm: "parked" | "out" | "near" | "in";
+  readonly mark: "none" | "search" | "bolt" | "alert" | "question" | "asleep" | "sync";
+}
+
+export interface Description {
+  readonly headline: string;
+  readonly detail: string;
+  /** What a person can do about a problem; empty when there is none. */
+  readonly remedy: string;
+  readonly tone: Tone;
+  readonly scene: Scene;
+  readonly action: Action | null;
+  /** The stop button is shown: something moves or is about to. */
+  readonly stoppable: boolean;
+}
+
+interface Sentence {
+  readonly headline: string;
+  readonly detail: string;
+}
+
+/** So long a finished charge stays the headline. */
+const NEWS_MS = 30 * 60 * 1000;
+
+const say = words.state;
+const label = words.action;
+
+/**
+ * Describes every live state.
+ *
+ * @param dismissedJobId the failed job whose message the reader has put away.
+ */
+export function describe(live: Live, dismissedJobId: string | null = null): Description {
+  const { robot, job } = live;
+  const running = isActive(job) ? job : null;
+  const stoppable = isStoppable(robot, running);
+  const base = { remedy: "", stoppable };
+  return (
+    describeHalt(robot, base) ??
+    (running !== null ? describeJob(robot, running, base) : null) ??
+    describeQuestion(robot, base) ??
+    describeOwnMotion(robot, base) ??
+    describeFailure(robot, job, dismissedJobId, base) ??
+    describeRest(live, base)
+  );
+}
+
+type Base = Pick<Description, "remedy" | "stoppable">;
+
+/** True while anything moves or may begin to move without another press. */
+function isStoppable(robot: Robot, running: Job | null): boolean {
+  switch (robot.mode) {
+    case "homing":
+    case "moving":
+    case "stopping":
+      return true;
+    case "offline":
+    case "stopped":
+    case "emergency_stop":
+    case "fault":
+      return false;
+    case "off":
+    case "not_homed":
+    case "ready":
+      return running !== null && (isMovingPhase(running.phase) || running.cancel_requested);
+  }
+}
+
+/** Offline, latched and stopping states come before everything else. */
+function describeHalt(robot: Robot, base: Base): Description | null {
+  const alert: Scene = { arm: armOf(robot), mark: "alert" };
+  switch (robot.mode) {
+    case "offline":
+      return {
+        ...base,
+        ...withPlugNote(say.offline, robot),
+        tone: "problem",
+        scene: { arm: armOf(robot), mark: "asleep" },
+        action: null,
+      };
+    case "emergency_stop":
+      return {
+        ...base,
+        ...withPlugNote(say.emergency, robot),
+        tone: "problem",
+        scene: alert,
+        action: { kind: "reset", label: label.clear },
+      };
+    case "fault": {
+      const { fault } = robot;
+      const sentence =
+        fault === null ? say.faultUnnamed : { headline: fault.title, detail: fault.detail };
+      return {
+        ...base,
+        ...withPlugNote(sentence, robot),
+        remedy: fault?.remedy ?? "",
+        tone: "problem",
+        scene: alert,
+        action: { kind: "reset", label: label.clear },
+      };
+    }
+    case "stopped":
+      return {
+        ...base,
+        ...withPlugNote(say.stopped, robot),
+        tone: "ask",
+        scene: alert,
+        action: { kind: "reset", label: label.release },
+      };
+    case "stopping":
+      return { ...base, ...say.stopping, tone: "ask", scene: alert, action: null };
+    default:
+      return null;
+  }
+}
+
+function describeJob(robot: Robot, job: Job, base: Base): Description {
+  if (job.state === "queued") {
+    const action = job.cancel_requested ? null : cancel();
+    const arm = armOf(robot);
+    return { ...base, ...say.queued, tone: "busy", scene: { arm, mark: "sync" }, action };
+  }
+  const scene = sceneOf(job, robot);
+  if (job.cancel_requested) {
+    const sentence = isAttached(job) ? say.ending : say.cancelling;
+    return { ...base, ...sentence, tone: "busy", scene, action: null };
+  }
+  const { headline, detail } = words.phases[job.phase];
+  const tone = job.phase === "charging" || job.phase === "plugged" ? "good" : "busy";
+  return { ...base, headline, detail, tone, scene, action: actionOf(job) };
+}
+
+function actionOf(job: Job): Action | null {
+  switch (job.phase) {
+    case "preflight":
+    case "locating":
+    case "aligning":
+    case "inserting":
+      return cancel();
+    case "plugged":
+    case "charging":
+      return { kind: "finish", label: label.finish };
+    case "releasing":
+    case "withdrawing":
+    case "parking":
+      return null; // On its way home already: only Stop is left.
+  }
+}
+
+function describeQuestion(robot: Robot, base: Base): Description | null {
+  if (robot.plug !== "unknown") return null;
+  const scene: Scene = { arm: "near", mark: "question" };
+  const action: Action = { kind: "confirm_plug", label: label.plugOut };
+  return { ...base, ...say.askPlug, tone: "ask", scene, action };
+}
+
+/** Motion without a job: homing, or somebody at the controls. */
+function describeOwnMotion(robot: Robot, base: Base): Description | null {
+  const scene: Scene = { arm: armOf(robot), mark: "sync" };
+  if (robot.mode === "homing") return { ...base, ...say.homing, tone: "busy", scene, action: null };
+  if (robot.mode !== "moving") return null;
+  const detail = robot.control === null ? say.moving.detail : say.movingBy(robot.control.name);
+  return { ...base, ...say.moving, detail, tone: "busy", scene, action: null };
+}
+
+function describeFailure(
+  robot: Robot,
+  job: Job | null,
+  dismissedJobId: string | null,
+  base: Base,
+): Description | null {
+  if (job?.state !== "failed" || job.id === dismissedJobId) return null;
+  const headline = {
+    charge: say.chargeFailed,
+    plug_in: say.plugInFailed,
+    unplug: say.unplugFailed,
+  }[job.type];
+  return {
+    ...base,
+    ...withPlugNote({ headline, detail: job.error?.detail ?? say.failedUnnamed }, robot),
+    remedy: job.error?.remedy ?? "",
+    tone: "problem",
+    scene: { arm: armOf(robot), mark: "alert" },
+    action:
+      robot.plug === "inserted"
+        ? { kind: "unplug", label: label.unplug }
+        : { kind: "charge", label: job.type === "unplug" ? label.charge : label.again },
+  };
+}
+
+function describeRest({ robot, job, station }: Live, base: Base): Description {
+  if (robot.plug === "inserted") {
+    const charges = station.online && station.power_w > 0;
+    const sentence = charges ? say.charging : say.pluggedIn;
+    const scene: Scene = { arm: "in", mark: charges ? "bolt" : "none" };
+    const action: Action = { kind: "unplug", label: label.unplug };
+    return { ...base, ...sentence, tone: "good", scene, action };
+  }
+  const scene: Scene = { arm: armOf(robot), mark: "none" };
+  const action: Action = { kind: "charge", label: label.charge };
+  return { ...base, ...restSentence(robot, job), tone: "calm", scene, action };
+}
+
+function restSentence(robot: Robot, job: Job | null): Sentence {
+  if (robot.mode === "off") return say.off;
+  if (robot.mode === "not_homed") return say.notHomed;
+  if (job?.type === "charge" && job.state === "succeeded" && isRecent(robot, job)) {
+    const energy_wh = job.result.energy_wh ?? null;
+    if (energy_wh === null || energy_wh <= 0) return say.readyAfterCharge;
+    return { ...say.readyAfterCharge, detail: say.charged(formatEnergy(energy_wh)) };
+  }
+  return robot.plug === "free" ? say.free : say.ready;
+}
+
+/** By the server's clock alone. */
+function isRecent(robot: Robot, job: Job): boolean {
+  return Date.parse(robot.updated_at) - Date.parse(job.updated_at) < NEWS_MS;
+}
+
+function cancel(): Action {
+  return { kind: "cancel", label: label.cancel };
+}
+
+function withPlugNote(sentence: Sentence, robot: Robot): Sentence {
+  if (robot.plug !== "inserted") return sentence;
+  return { headline: sentence.headline, detail: `${say.stillPlugged} ${sentence.detail}` };
+}
+
+function isAttached(job: Job): boolean {
+  return job.phase === "plugged" || job.phase === "charging" || job.phase === "releasing";
+}
+
+function armOf(robot: Robot): Scene["arm"] {
+  switch (robot.plug) {
+    case "parked":
+      return "parked";
+    case "free":
+      return "out";
+    case "inserted":
+      return "in";
+    case "unknown":
+      return "near";
+  }
+}
+
+function sceneOf(job: Job, robot: Robot): Scene {
+  switch (job.phase) {
+    case "preflight":
+      return { arm: armOf(robot), mark: "sync" };
+    case "locating":
+      return { arm: armOf(robot), mark: "search" };
+    case "aligning":
+      return { arm: "near", mark: "none" };
+    case "inserting":
+    case "plugged":
+    case "releasing":
+      return { arm: "in", mark: "none" };
+    case "charging":
+      return { arm: "in", mark: "bolt" };
+    case "withdrawing":
+      return { arm: "out", mark: "none" };
+    case "parking":
+      return { arm: "parked", mark: "none" };
+  }
+}
