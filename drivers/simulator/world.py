@@ -1,0 +1,329 @@
+"""The simulated world: one robot as it was built, one parked car, and what passes between them.
+
+The world has no clock and no task of its own. Whoever asks says what time it is, and everything
+up to then is worked out; between two questions at rest nothing is computed.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from drivers.simulator import poses
+from drivers.simulator.build import built_geometry, built_mount
+from drivers.simulator.car import ParkedCar, park
+from drivers.simulator.parameters import SimulationParameters
+from drivers.simulator.plant import Plant, PlantState, Socket, Surroundings
+from drivers.simulator.randomness import Streams
+from drivers.simulator.sag import RobotSag
+from drivers.simulator.set_points import SetPointLine
+from drivers.simulator.socket_contact import FREE, Place, SocketContact
+from drivers.simulator.truth import GroundTruth
+from drivers.simulator.view import CameraView, Pose
+from twin.camera_mount import CameraMount
+from twin.geometry import RobotGeometry
+from twin.joints import JointPosition
+from twin.kinematics import alpha
+from twin.motion.limits import MotionLimits
+
+HISTORY_S = 2.0
+"""How far back the camera may look."""
+
+ConnectionListener = Callable[[bool, float], None]
+"""Called with whether the pilot contact is made, and when it changed [s]."""
+
+
+class CarIsPluggedInError(RuntimeError):
+    """The car cannot be moved while the plug is in its socket."""
+
+
+class SimulatedWorld:
+    """Robot, car and physics behind the simulated drivers.
+
+    Args:
+        geometry: The robot as drawn, which is what the drivers' users know.
+        limits: How fast its joints may move.
+        mount: The camera on the platform, as drawn.
+        parameters: All numbers.
+        seed: Decides every random quantity.
+    """
+
+    def __init__(
+        self,
+        geometry: RobotGeometry,
+        limits: MotionLimits,
+        mount: CameraMount,
+        parameters: SimulationParameters,
+        seed: int,
+    ) -> None:
+        self.geometry = geometry
+        self.limits = limits
+        self.parameters = parameters
+        self.streams = Streams.from_seed(seed)
+        true_geometry = built_geometry(geometry, parameters.build, self.streams.build)
+        self._platform_camera = built_mount(mount, parameters.build, self.streams.build)
+        self._force_scale = 1.0 + float(
+            self.streams.build.normal(0.0, parameters.drives.force_scale_std)
+        )
+        sag = RobotSag(true_geometry, parameters.build.sag_scale)
+        self._plant = Plant(true_geometry, parameters, sag)
+        self._force_limit_n = parameters.board.default_force_limit_n
+        self._slide_jammed = False
+        self._listeners: list[ConnectionListener] = []
+        self._pilot_made = False
+        self.load_breaks = 0
+
+        stored = self._power_up_joints()
+        creep = self.streams.power_up.normal(0.0, parameters.homing.power_off_creep_std_mm, 3)
+        if parameters.board.start_homed:
+            creep[:] = 0.0
+        self._zero = JointPosition(*creep.tolist())
+        self.line = SetPointLine(
+            stored,
+            0.0,
+            deceleration_mm_s2=parameters.board.stop_deceleration_mm_s2,
+            still_mm_s=parameters.board.velocity_tolerance_mm_s,
+        )
+        standing = JointPosition(*(q + z for q, z in zip(stored, self._zero, strict=True)))
+        self._state = PlantState(0.0, stored, standing)
+        self._history = deque([self._state])
+        self._parked = park(geometry, parameters.car, parameters.contact, self.streams.car)
+        self._car = self._parked
+        self._take_in(self._parked)
+
+    def _power_up_joints(self) -> JointPosition:
+        """Where the board remembers to stand when it wakes up.
+
+        Raises:
+            LegsCannotCloseError: the robot cannot stand there.
+        """
+        joints = self.parameters.board.start_joints or self.homed_joints
+        alpha.forward(self.geometry, joints.rho1_mm, joints.rho2_mm)
+        return joints
+
+    @property
+    def homed_joints(self) -> JointPosition:
+        """Where homing ends: the platform over the middle of the rail, the slide drawn back."""
+        half_mm = 0.5 * self.parameters.homing.carriage_sum_mm
+        return JointPosition(half_mm, half_mm, self.geometry.rho3.min_mm)
+
+    # --- the car -----------------------------------------------------------------------------
+
+    @property
+    def car(self) -> ParkedCar:
+        """The car in the garage, or the one that has just left it."""
+        return self._car
+
+    def park_car(self, seed: int) -> None:
+        """Another car parks at a place of its own.
+
+        Raises:
+            CarIsPluggedInError: the plug is in the socket.
+        """
+        rng = np.random.default_rng(seed)
+        parked = park(self.geometry, self.parameters.car, self.parameters.contact, rng)
+        self._drive(parked)
+
+    def remove_car(self) -> None:
+        """The car drives away.
+
+        Raises:
+            CarIsPluggedInError: the plug is in the socket.
+        """
+        self._drive(self._car.driven_away())
+
+    def hide_label(self) -> None:
+        """Something covers the label; the socket stays where it is."""
+        self._car = self._car.without_label()
+
+    def show_label(self) -> None:
+        """The label can be seen again."""
+        self._car = replace(self._car, T_base_label=self._parked.T_base_label)
+
+    def _drive(self, car: ParkedCar) -> None:
+        if self._state.contact.place is Place.IN_SOCKET:
+            raise CarIsPluggedInError("the plug is in the socket: withdraw it first")
+        self._parked = car
+        self._take_in(car)
+        self._change(contact=FREE, max_force_n=0.0, lateral_violation_mm=0.0)
+
+    def _take_in(self, car: ParkedCar) -> None:
+        self._car = car
+        self.wanted_wh = car.wanted_wh
+        self._socket = Socket(
+            car.T_base_socket, SocketContact(self.parameters.contact, car.peak_force_n)
+        )
+
+    # --- time --------------------------------------------------------------------------------
+
+    def advance(self, now_s: float) -> PlantState:
+        """Work out everything up to a time and return the state then."""
+        if now_s <= self._state.t_s:
+            return self._state
+        self._state = self._plant.advance(self._state, self.line, self._surroundings, now_s)
+        self._history.append(self._state)
+        while self._history[0].t_s < now_s - HISTORY_S:
+            self._history.popleft()
+        self.line.forget(self._history[0].t_s)
+        self._report_connection()
+        return self._state
+
+    @property
+    def _surroundings(self) -> Surroundings:
+        return Surroundings(
+            self._socket, self._zero, self._force_limit_n / self._force_scale, self._slide_jammed
+        )
+
+    def _change(self, **changes: object) -> None:
+        """Something happened from outside: the plant may no longer be steady."""
+        self._state = replace(self._state, steady=False, **changes)  # type: ignore[arg-type]  # the names are PlantState's
+        self._history.append(self._state)
+
+    def _state_at(self, t_s: float) -> PlantState:
+        """The state at a time of the recent past or the near future."""
+        start = self._state
+        if t_s < start.t_s:
+            before = (state for state in reversed(self._history) if state.t_s <= t_s)
+            start = next(before, self._history[0])
+        return self._plant.advance(start, self.line, self._surroundings, t_s)
+
+    # --- the board's side --------------------------------------------------------------------
+
+    def set_force_limit(self, force_n: float, now_s: float) -> None:
+        """Let the rho3 motor push and pull no harder, as far as its current tells [N]."""
+        self.advance(now_s)
+        self._force_limit_n = force_n
+        self._change()
+
+    def measured_force_n(self, state: PlantState) -> float:
+        """Force of the rho3 motor as its current shows it, without noise."""
+        velocity = state.velocity.rho3_mm_s
+        friction_n = self.parameters.drives.friction_n * float(np.sign(velocity))
+        if state.blocked_since_s is not None:
+            wanted_mm = self.line.at(state.t_s).position.rho3_mm - state.motors.rho3_mm
+            return self._force_limit_n * float(np.sign(wanted_mm))
+        return (state.contact.force_n + friction_n) * self._force_scale
+
+    def drive_to(self, position: JointPosition, now_s: float) -> None:
+        """Make the set point jump; the joints rest there from now on."""
+        self.advance(now_s)
+        self.line.jump(now_s, position)
+        self._change()
+
+    def renumber(self, joint: int, counter_mm: float, now_s: float) -> None:
+        """Give a joint at rest another coordinate; nothing moves.
+
+        Args:
+            joint: 0, 1, 2 for rho1, rho2, rho3.
+            counter_mm: What the board's counter shall read where the joint stands now.
+            now_s: When.
+        """
+        state = self.advance(now_s)
+        zero, motors = list(self._zero), list(state.motors)
+        zero[joint] += motors[joint] - counter_mm
+        motors[joint] = counter_mm
+        self._zero = JointPosition(*zero)
+        self.line.jump(now_s, JointPosition(*motors))
+        self._change(motors=JointPosition(*motors))
+
+    # --- the station's side ------------------------------------------------------------------
+
+    @property
+    def pilot_made(self) -> bool:
+        """The pilot contact between car and station is closed."""
+        return self._pilot_made
+
+    def on_connection(self, listener: ConnectionListener) -> None:
+        """Call a listener whenever the pilot contact opens or closes."""
+        self._listeners.append(listener)
+
+    def lock_connector(self, *, locked: bool, now_s: float) -> None:
+        """Close or open the lock of the connector."""
+        contact = self.advance(now_s).contact
+        self._change(contact=replace(contact, locked_at_mm=contact.depth_mm if locked else None))
+
+    def _report_connection(self) -> None:
+        contact = self._state.contact
+        depth_mm = contact.depth_mm if contact.place is Place.IN_SOCKET else 0.0
+        numbers = self.parameters.contact
+        threshold_mm = numbers.pilot_breaks_mm if self._pilot_made else numbers.pilot_makes_mm
+        made = depth_mm >= threshold_mm
+        if made != self._pilot_made:
+            self._pilot_made = made
+            for listener in self._listeners:
+                listener(made, self._state.t_s)
+
+    # --- faults ------------------------------------------------------------------------------
+
+    def jam_slide(self, now_s: float) -> None:
+        """Block the slide where it stands."""
+        self.advance(now_s)
+        self._slide_jammed = True
+        self._change()
+
+    def free_slide(self, now_s: float) -> None:
+        """Take away what blocks the slide."""
+        self.advance(now_s)
+        self._slide_jammed = False
+        self._change()
+
+    # --- what is seen and what is true -------------------------------------------------------
+
+    def view_at(self, t_s: float) -> CameraView:
+        """The scene in the camera frame at a time of the recent past or the near future [s]."""
+        state = self._state_at(t_s)
+        v = self._plant.platform(state)
+        geometry = self._plant.geometry
+        base_platform = poses.pose(np.eye(3), np.array([v.x_mm, v.y_mm, 0.0]))
+        camera_base = poses.inverse(base_platform @ self._platform_camera)
+        legs = alpha.leg_vectors(geometry, v, state.carriages.rho1_mm, state.carriages.rho2_mm)
+        camera_velocity = np.zeros(3)
+        camera_velocity[:2] = alpha.jacobian(legs) @ np.array(state.velocity[:2])
+        return CameraView(
+            T_camera_label=camera_base @ self._car.T_base_label,
+            T_camera_socket=camera_base @ self._car.T_base_socket,
+            T_camera_plug=camera_base @ self._plug_pose(state),
+            label_velocity_mm_s=-camera_base[:3, :3] @ camera_velocity,
+            payload=self._car.payload,
+            label_size_mm=self._car.label_size_mm,
+        )
+
+    def truth(self, at_s: float | None = None) -> GroundTruth:
+        """The truth at a time, or when something was last worked out."""
+        state = self._state if at_s is None else self.advance(at_s)
+        tip = self._plant.tip(state)
+        contact = state.contact
+        depth_mm, _ = self._socket.depth_and_lateral_mm(tip)
+        lateral_mm = contact.entry_lateral_mm
+        if lateral_mm is None:
+            lateral_mm = self._lateral_at_face_mm(state)
+        inside = contact.place is Place.IN_SOCKET
+        return GroundTruth(
+            at_s=state.t_s,
+            T_base_plug=self._plug_pose(state),
+            T_base_socket=self._car.T_base_socket.copy(),
+            lateral_error_mm=lateral_mm,
+            insertion_depth_mm=depth_mm,
+            contact_force_n=contact.force_n,
+            max_contact_force_n=state.max_force_n,
+            seated=inside and depth_mm >= self.parameters.contact.seated_depth_mm,
+            jammed=contact.place is Place.AGAINST_PANEL,
+            lateral_violation_mm=state.lateral_violation_mm,
+            locked=contact.locked_at_mm is not None,
+            load_breaks=self.load_breaks,
+        )
+
+    def _plug_pose(self, state: PlantState) -> Pose:
+        axes = poses.facing_the_car(self._plant.geometry)
+        return poses.pose(axes, np.array(self._plant.tip(state)))
+
+    def _lateral_at_face_mm(self, state: PlantState) -> float:
+        """Where the plug's axis pierces the plane of the socket's face, from its centre."""
+        plug, socket = self._plug_pose(state), self._car.T_base_socket
+        axis, normal = plug[:3, 2], socket[:3, 2]
+        to_face = socket[:3, 3] - plug[:3, 3]
+        pierced = axis * float(to_face @ normal) / float(axis @ normal)
+        return float(np.linalg.norm(pierced - to_face))
