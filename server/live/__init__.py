@@ -1,0 +1,1 @@
+"""What is going on, as everyone may see it, pushed to everyone who watches."""

@@ -1,0 +1,105 @@
+"""One stream of JPEG pictures for any number of viewers; the camera rests while nobody looks."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.camera import CameraDriver, CameraError
+
+STREAM_WIDTH_PX = 820
+QUALITY = 75
+
+
+class CameraFeed:
+    """Encodes pictures and shares them.
+
+    Args:
+        camera: The camera.
+        period_s: Event loop time between two pictures of the stream.
+    """
+
+    def __init__(self, camera: CameraDriver, period_s: float) -> None:
+        self.online = True
+        self._camera = camera
+        self._period_s = period_s
+        self._viewers = 0
+        self._newest: bytes | None = None
+        self._news = asyncio.Condition()
+        self._task: asyncio.Task[None] | None = None
+        self._error: CameraError | None = None
+
+    async def snapshot(self) -> bytes:
+        """One new picture at full size, as JPEG.
+
+        Raises:
+            CameraError: the camera does not deliver.
+        """
+        try:
+            frame = await self._camera.frame()
+        except CameraError:
+            self.online = False
+            raise
+        self.online = True
+        return await asyncio.to_thread(_jpeg, frame.image)
+
+    async def stream(self) -> AsyncIterator[bytes]:
+        """JPEG pictures for one viewer, newest only; ends when the camera fails.
+
+        Raises:
+            CameraError: the camera does not deliver.
+        """
+        self._viewers += 1
+        if self._task is None or self._task.done():
+            self._task = asyncio.create_task(self._produce(), name="camera feed")
+        try:
+            while True:
+                async with self._news:
+                    await self._news.wait()
+                    picture, error = self._newest, self._error
+                if error is not None:
+                    raise error
+                if picture is not None:
+                    yield picture
+        finally:
+            self._viewers -= 1
+
+    async def close(self) -> None:
+        """Stop the stream."""
+        if self._task is not None:
+            self._task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._task
+
+    async def _produce(self) -> None:
+        self._error = None
+        loop = asyncio.get_running_loop()
+        while self._viewers and self._error is None:
+            due_s = loop.time() + self._period_s
+            try:
+                frame = await self._camera.frame()
+            except CameraError as error:
+                self.online, self._error = False, error
+            else:
+                self.online = True
+                self._newest = await asyncio.to_thread(_small_jpeg, frame.image)
+            async with self._news:
+                self._news.notify_all()
+            await asyncio.sleep(due_s - loop.time())
+
+
+def _small_jpeg(image: NDArray[np.uint8]) -> bytes:
+    height, width = image.shape
+    scale = min(1.0, STREAM_WIDTH_PX / width)
+    size = (round(width * scale), round(height * scale))
+    return _jpeg(np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8))
+
+
+def _jpeg(image: NDArray[np.uint8]) -> bytes:
+    _, encoded = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
+    return encoded.tobytes()

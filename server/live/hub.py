@@ -1,0 +1,134 @@
+"""Pushes live sections to any number of watchers, newest value only.
+
+A section is serialised once for all watchers. A watcher that falls behind finds only the newest
+value of each section when it asks again: there is no queue that could grow.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Mapping
+from dataclasses import dataclass
+
+from pydantic import BaseModel
+
+from server.api.schema.live import PROTOCOL_VERSION
+
+STALE_AFTER_S = 1.0
+
+Build = Callable[[], BaseModel | None]
+
+
+@dataclass(slots=True)
+class _Section:
+    version: int
+    json: bytes
+
+
+class LiveHub:
+    """Knows the newest value of every section.
+
+    Args:
+        builders: Makes each section's value when it is needed.
+        period_s: Shortest time between two pushes of changes that are not urgent, in event loop
+            time.
+    """
+
+    def __init__(self, builders: Mapping[str, Build], period_s: float) -> None:
+        self._builders = builders
+        self._period_s = period_s
+        self._sections = {name: _Section(0, b"null") for name in builders}
+        self._dirty: set[str] = set(builders)
+        self._watchers: set[asyncio.Event] = set()
+        self._timer: asyncio.TimerHandle | None = None
+        self._last_push_s = 0.0
+
+    @property
+    def watchers(self) -> int:
+        """How many are watching."""
+        return len(self._watchers)
+
+    def changed(self, section: str, *, urgent: bool = False) -> None:
+        """A section's value may have changed; urgent changes are pushed at once."""
+        self._dirty.add(section)
+        if not self._watchers:
+            return
+        loop = asyncio.get_running_loop()
+        if urgent:
+            self._cancel_timer()
+            self._push()
+        elif self._timer is None:
+            due_s = max(loop.time(), self._last_push_s + self._period_s)
+            self._timer = loop.call_at(due_s, self._push)
+
+    async def watch(self) -> AsyncIterator[bytes]:
+        """Messages for one watcher: a snapshot first, then deltas, as JSON."""
+        news = asyncio.Event()
+        self._watchers.add(news)
+        try:
+            self._refresh()
+            seen = self._versions()
+            sequence = 1
+            yield self._snapshot(sequence)
+            while True:
+                await news.wait()
+                news.clear()
+                changes = {
+                    name: section.json
+                    for name, section in self._sections.items()
+                    if section.version > seen[name]
+                }
+                seen = self._versions()
+                if changes:
+                    sequence += 1
+                    yield _delta(sequence, changes)
+        finally:
+            self._watchers.discard(news)
+            if not self._watchers:
+                self._cancel_timer()
+
+    def _push(self) -> None:
+        self._timer = None
+        self._last_push_s = asyncio.get_running_loop().time()
+        if self._refresh():
+            for news in self._watchers:
+                news.set()
+
+    def _refresh(self) -> bool:
+        """Bring dirty sections up to date; True when one has really changed."""
+        changed = False
+        for name in self._dirty:
+            value = self._builders[name]()
+            json = b"null" if value is None else value.model_dump_json().encode()
+            section = self._sections[name]
+            if json != section.json:
+                section.json = json
+                section.version += 1
+                changed = True
+        self._dirty.clear()
+        return changed
+
+    def _versions(self) -> dict[str, int]:
+        return {name: section.version for name, section in self._sections.items()}
+
+    def _snapshot(self, sequence: int) -> bytes:
+        live = _object({name: section.json for name, section in self._sections.items()})
+        return b'{"type":"snapshot","version":%d,"sequence":%d,"stale_after_s":%.1f,"live":%s}' % (
+            PROTOCOL_VERSION,
+            sequence,
+            STALE_AFTER_S,
+            live,
+        )
+
+    def _cancel_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+
+
+def _delta(sequence: int, changes: Mapping[str, bytes]) -> bytes:
+    return b'{"type":"delta","sequence":%d,"changes":%s}' % (sequence, _object(changes))
+
+
+def _object(members: Mapping[str, bytes]) -> bytes:
+    return b"{" + b",".join(b'"%s":%s' % (k.encode(), v) for k, v in members.items()) + b"}"
