@@ -1,0 +1,1 @@
+"""The public API: REST, WebSocket, pages and the twin on one port."""

@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
+import logging
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import Response
+from starlette.exceptions import HTTPException
+
+from server.api.errors import InvalidRequestError, MalformedJsonError, MethodError, NotFoundError
 from server.api.schema.problem import Problem
-from server.errors import PlugPilotError
+from server.errors import InternalError, PlugPilotError
+
+_log = logging.getLogger(__name__)
 
 TYPE_PREFIX = "urn:plugpilot:problem:"
+MEDIA_TYPE = "application/problem+json"
 
 
 def problem_from(error: PlugPilotError) -> Problem:
@@ -19,3 +32,82 @@ def problem_from(error: PlugPilotError) -> Problem:
         remedy=error.remedy,
         context=error.context,
     )
+
+
+def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """What an operation documents about its errors."""
+    schema = {"$ref": "#/components/schemas/Problem"}
+    return {
+        status: {
+            "description": HTTPStatus(status).phrase,
+            "content": {MEDIA_TYPE: {"schema": schema}},
+        }
+        for status in statuses
+    }
+
+
+def install_handlers(app: FastAPI) -> None:
+    """Make every error of the application leave it as a problem document."""
+    app.add_exception_handler(PlugPilotError, _on_own_error)
+    app.add_exception_handler(RequestValidationError, _on_invalid_request)
+    app.add_exception_handler(HTTPException, _on_http_error)
+    app.add_exception_handler(Exception, _on_surprise)
+
+
+def respond(error: PlugPilotError, headers: dict[str, str] | None = None) -> Response:
+    """The HTTP response for an error."""
+    return Response(
+        problem_from(error).model_dump_json(),
+        status_code=error.status,
+        media_type=MEDIA_TYPE,
+        headers=headers,
+    )
+
+
+def _on_own_error(_request: Request, error: Exception) -> Response:
+    assert isinstance(error, PlugPilotError)  # noqa: S101 - registered for this type only
+    return respond(error)
+
+
+def _on_invalid_request(_request: Request, error: Exception) -> Response:
+    assert isinstance(error, RequestValidationError)  # noqa: S101 - registered for this type only
+    faults = error.errors()
+    if any(fault["type"] == "json_invalid" for fault in faults):
+        reason = faults[0].get("ctx", {}).get("error", "it cannot be read")
+        return respond(MalformedJsonError(f"The body is not JSON: {reason}."))
+    fields = [
+        {
+            "field": ".".join(str(part) for part in fault["loc"][1:]) or str(fault["loc"][0]),
+            "problem": fault["msg"],
+        }
+        for fault in faults
+    ]
+    sentence = "; ".join(f"{fault['field']}: {fault['problem']}" for fault in fields)
+    return respond(InvalidRequestError(f"{sentence}.", fields=fields))
+
+
+def _on_http_error(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)  # noqa: S101 - registered for this type only
+    where = f"{request.method} {request.url.path}"
+    headers = dict(error.headers or {})
+    match error.status_code:
+        case 404:
+            return respond(NotFoundError(f"{where}: there is nothing at this address."), headers)
+        case 405:
+            return respond(MethodError(f"{where}: this method is not allowed here."), headers)
+        case status:
+            own = PlugPilotError(f"{where}: {error.detail}")
+            problem = problem_from(own).model_copy(
+                update={"status": status, "title": HTTPStatus(status).phrase}
+            )
+            return Response(
+                problem.model_dump_json(),
+                status_code=status,
+                media_type=MEDIA_TYPE,
+                headers=headers,
+            )
+
+
+def _on_surprise(request: Request, error: Exception) -> Response:
+    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    return respond(InternalError(f"{type(error).__name__}. The log has the details."))

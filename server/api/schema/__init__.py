@@ -1,0 +1,1 @@
+"""The wire models: what is said over the network, and how it is spelled."""

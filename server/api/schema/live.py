@@ -106,7 +106,7 @@ class JogMessage(Wire):
         Literal["rho1", "rho2", "rho3", "x", "y", "insertion"], Field(description="As JogStep")
     ]
     direction: Literal[-1, 1]
-    speed_mm_s: Annotated[float, Field(gt=0, le=20, allow_inf_nan=False)] = 10.0
+    speed_mm_s: Annotated[float, Field(ge=0.5, le=20, allow_inf_nan=False)] = 10.0
 
 
 class JogStepMessage(Wire):

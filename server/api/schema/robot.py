@@ -89,7 +89,7 @@ class JogStep(Wire):
 
     axis: Literal["rho1", "rho2", "rho3", "x", "y", "insertion"]
     distance_mm: Annotated[float, Field(ge=-50, le=50, allow_inf_nan=False)]
-    speed_mm_s: Annotated[float, Field(gt=0, le=20, allow_inf_nan=False)] = 10.0
+    speed_mm_s: Annotated[float, Field(ge=0.5, le=20, allow_inf_nan=False)] = 10.0
 
 
 class PlugConfirmation(Wire):

@@ -1,0 +1,59 @@
+"""The web application: routes, errors, pages and the twin around the running services."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager
+from pathlib import Path
+
+from fastapi import APIRouter, FastAPI
+
+from server.api.contract import describe
+from server.api.pages import pages_router
+from server.api.problems import install_handlers
+from server.api.routes import camera, health, jobs, live, robot, station, vehicles
+from server.api.twin import twin_router
+from server.services import Services
+from server.version import VERSION
+from twin.scene import TwinHost
+
+PREFIX = "/api/v1"
+STATIC = Path(__file__).parent.parent / "static"
+
+StartServices = Callable[[], AbstractAsyncContextManager[Services]]
+
+
+def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
+    """Make the application. Nothing is touched before its lifespan begins.
+
+    Args:
+        start: Starts the services, and stops them when the application ends.
+        twin: The 3D picture to serve at /twin/, if any.
+    """
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        async with start() as services:
+            app.state.services = services
+            yield
+
+    app = FastAPI(
+        title="PlugPilot",
+        version=VERSION,
+        summary="A robot that plugs an electric car in by itself",
+        lifespan=lifespan,
+        openapi_url=f"{PREFIX}/openapi.json",
+        docs_url=None,
+        redoc_url=None,
+    )
+    api = APIRouter(prefix=PREFIX)
+    for module in (health, robot, jobs, vehicles, station, camera, live):
+        api.include_router(module.router)
+    app.include_router(api)
+    if twin is not None:
+        app.include_router(twin_router(twin))
+    app.include_router(pages_router(STATIC))
+    install_handlers(app)
+    describe(app)
+    return app

@@ -1,0 +1,20 @@
+"""What route functions ask for."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends
+from fastapi.requests import HTTPConnection
+
+from server.services import Services
+
+
+def running_services(connection: HTTPConnection) -> Services:
+    """The running parts, as the lifespan of the application left them."""
+    services = connection.app.state.services
+    assert isinstance(services, Services)  # noqa: S101 - set by the lifespan
+    return services
+
+
+ServicesDep = Annotated[Services, Depends(running_services)]

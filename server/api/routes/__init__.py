@@ -1,0 +1,1 @@
+"""The REST operations and the WebSocket, one module per subject."""

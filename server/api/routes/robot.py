@@ -1,0 +1,96 @@
+"""The robot: state, stops, homing and jog steps."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+
+from server.api.dependencies import ServicesDep
+from server.api.problems import problem_responses
+from server.api.schema.robot import JogStep, PlugConfirmation, Robot
+from server.control.errors import LateralMotionForbiddenError
+from server.control.model import PlugState
+from server.live.views import robot_view
+from server.services import Services
+
+router = APIRouter(prefix="/robot", tags=["robot"])
+
+_REFUSALS = problem_responses(409, 503)
+
+
+def _now(services: Services) -> Robot:
+    return robot_view(services.supervisor, services.runner.socket, services.calendar)
+
+
+@router.get("", operation_id="getRobot")
+async def get_robot(services: ServicesDep) -> Robot:
+    """The robot now."""
+    return _now(services)
+
+
+@router.post("/stop", operation_id="stopRobot")
+async def stop(services: ServicesDep) -> Robot:
+    """Protective stop (category 2 of IEC 60204-1), in force until reset. Never refused."""
+    await services.supervisor.stop()
+    return _now(services)
+
+
+@router.post("/estop", operation_id="emergencyStopRobot")
+async def emergency_stop(services: ServicesDep) -> Robot:
+    """Emergency stop (category 1), latched until reset. Never refused."""
+    await services.supervisor.emergency_stop()
+    return _now(services)
+
+
+@router.post("/reset", operation_id="resetRobot", responses=_REFUSALS)
+async def reset(services: ServicesDep) -> Robot:
+    """Release stop, emergency stop and fault. Nothing moves by itself afterwards."""
+    await services.supervisor.reset()
+    return _now(services)
+
+
+@router.post("/enable", operation_id="enableRobot", responses=_REFUSALS)
+async def enable(services: ServicesDep) -> Robot:
+    """Switch the drives on."""
+    async with services.supervisor.control("jog", "A technician") as lease:
+        await services.supervisor.enable(lease)
+    return _now(services)
+
+
+@router.post("/disable", operation_id="disableRobot", responses=_REFUSALS)
+async def disable(services: ServicesDep) -> Robot:
+    """Switch the drives off."""
+    async with services.supervisor.control("jog", "A technician") as lease:
+        await services.supervisor.disable(lease)
+    return _now(services)
+
+
+@router.post("/home", operation_id="homeRobot", responses=_REFUSALS)
+async def home(services: ServicesDep) -> Robot:
+    """Find the zero of each axis; answers when it is done."""
+    async with services.supervisor.control("homing", "Homing") as lease:
+        await services.supervisor.home(lease)
+    return _now(services)
+
+
+@router.post("/jog", operation_id="jogRobot", responses=problem_responses(409, 422, 503))
+async def jog(step: JogStep, services: ServicesDep) -> Robot:
+    """One step of one axis; answers when it is done. Held motion goes over the WebSocket."""
+    await services.jog.step(step.axis, step.distance_mm, step.speed_mm_s)
+    return _now(services)
+
+
+@router.post(
+    "/plug-confirmation", operation_id="confirmPlug", responses=problem_responses(409, 422)
+)
+async def confirm_plug(confirmation: PlugConfirmation, services: ServicesDep) -> Robot:
+    """A person has looked and says that the plug is out of the car."""
+    del confirmation  # there is only one thing to confirm
+    supervisor = services.supervisor
+    async with supervisor.control("jog", "Somebody at the robot"):
+        if supervisor.plug.state is PlugState.INSERTED:
+            raise LateralMotionForbiddenError(
+                "The plug is in the socket by PlugPilot's own measurement.", plug="inserted"
+            )
+        if supervisor.plug.state is PlugState.UNKNOWN:
+            await supervisor.plug.is_free()
+    return _now(services)

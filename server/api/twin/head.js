@@ -1,0 +1,58 @@
+// Runs before the 3D client, in the same page.
+"use strict";
+
+// The colour scheme is dark unless the address says ?theme=light.
+// A window narrower than high sees as much from left to right as a square one does.
+{
+  const query = new URLSearchParams(location.search);
+  const light = query.get("theme") === "light";
+  if (light) query.delete("darkMode");
+  else query.set("darkMode", "");
+  document.documentElement.dataset.theme = light ? "light" : "dark";
+  const aspect = innerWidth / Math.max(innerHeight, 1);
+  if (aspect < 1 && !query.has("initialCameraFov")) {
+    const square = 46 * (Math.PI / 180);
+    const fov = 2 * Math.atan(Math.tan(square / 2) / Math.max(aspect, 0.45));
+    query.set("initialCameraFov", fov.toFixed(3));
+  }
+  history.replaceState(null, "", location.pathname + "?" + query.toString());
+}
+
+// The client reconnects only while the document has the focus, which a frame that nobody has
+// touched never has.
+document.hasFocus = () => document.visibilityState === "visible";
+document.addEventListener("visibilitychange", () => {
+  window.dispatchEvent(new Event(document.hidden ? "blur" : "focus"));
+});
+
+// The client loads a sorter for point splats, which wants to build code from text. The policy
+// refuses that, and this picture has no splats.
+addEventListener("unhandledrejection", (event) => {
+  if (event.reason instanceof EvalError) event.preventDefault();
+});
+
+// Phones drop the graphics context of hidden pages; what comes back has lost its lights.
+document.addEventListener("webglcontextrestored", () => location.reload(), true);
+
+// Tells the page around this frame whether the picture is alive: the server moves an invisible
+// node with every step.
+{
+  const STALE_AFTER_MS = 1500;
+  let beat = null;
+  let beatAt = performance.now();
+  let said = null;
+  setInterval(() => {
+    const node = window.__viserMutable?.nodePoseData?.["/heartbeat"];
+    const newest = node?.position?.[0] ?? null;
+    const now = performance.now();
+    if (newest !== null && newest !== beat) {
+      beat = newest;
+      beatAt = now;
+    }
+    const word = beat !== null && now - beatAt < STALE_AFTER_MS ? "live" : "stale";
+    if (word === said) return;
+    said = word;
+    document.documentElement.dataset.twin = word;
+    if (parent !== window) parent.postMessage({ twin: word }, location.origin);
+  }, 250);
+}

@@ -1,0 +1,54 @@
+"""Everything the API may ask for, put together by the composition root."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+
+from server.config.settings import Settings
+from server.control.jog import Jog
+from server.control.supervisor import Supervisor
+from server.jobs.runner import JobRunner
+from server.live.camera_feed import CameraFeed
+from server.live.hub import LiveHub
+from server.live.station_watch import StationWatch
+from server.storage.database import Database
+from server.storage.jobs import JobStore
+from server.storage.vehicles import VehicleStore
+from server.timing import Calendar
+from twin.scene import TwinHost
+
+
+@dataclass(frozen=True, slots=True)
+class Services:
+    """The running parts of PlugPilot.
+
+    Attributes:
+        settings: The whole configuration.
+        calendar: Dates.
+        started_at: When PlugPilot was started.
+        database: Storage.
+        jobs: Jobs and their journals.
+        vehicles: Known vehicles.
+        supervisor: Owner of the robot.
+        jog: Moves one axis for a person.
+        runner: Runs jobs.
+        station: Newest reading of the charging station.
+        camera: Pictures for people.
+        live: Pushes what changes.
+        twin: The 3D picture; None where nobody can watch.
+    """
+
+    settings: Settings
+    calendar: Calendar
+    started_at: datetime
+    database: Database
+    jobs: JobStore
+    vehicles: VehicleStore
+    supervisor: Supervisor
+    jog: Jog
+    runner: JobRunner
+    station: StationWatch
+    camera: CameraFeed
+    live: LiveHub
+    twin: TwinHost | None
