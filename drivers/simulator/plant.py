@@ -7,14 +7,14 @@ looked at without disturbing what really happens.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from typing import NamedTuple
 
 from drivers.simulator.actuators import StepperAxis, lagged, with_play
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.sag import RobotSag
 from drivers.simulator.set_points import STILL, UNACCELERATED, SetPoint, SetPointLine
-from drivers.simulator.socket_contact import Contact, Place, SocketContact
+from drivers.simulator.socket_contact import FREE, Contact, Place, SocketContact
 from drivers.simulator.view import Pose
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition, JointVelocity, TipPosition
@@ -27,8 +27,7 @@ STANDSTILL_MM = 1e-4
 """A slide that moves less in one step of the contact stands still: far below one encoder count."""
 
 
-@dataclass(frozen=True, slots=True)
-class PlantState:
+class PlantState(NamedTuple):
     """The plant at one instant.
 
     Attributes:
@@ -47,7 +46,7 @@ class PlantState:
     motors: JointPosition
     carriages: JointPosition
     velocity: JointVelocity = STILL
-    contact: Contact = field(default_factory=Contact)
+    contact: Contact = FREE
     blocked_since_s: float | None = None
     steady: bool = False
     max_force_n: float = 0.0
@@ -78,8 +77,7 @@ class Socket:
         return x * self.axis[0] + y * self.axis[1] + z * self.axis[2]
 
 
-@dataclass(frozen=True, slots=True)
-class Surroundings:
+class Surroundings(NamedTuple):
     """What acts on the plant and only changes when somebody does something.
 
     Attributes:
@@ -148,10 +146,10 @@ class Plant:
         """
         for piece_end_s, piece in line.pieces_between(state.t_s, until_s):
             if piece is not None:
-                state = replace(state, steady=False)
+                state = state._replace(steady=False)
             while state.t_s < piece_end_s:
                 if state.steady:
-                    state = replace(state, t_s=piece_end_s)
+                    state = state._replace(t_s=piece_end_s)
                     break
                 in_contact = state.contact.depth_mm > -self._contact.near_mm
                 step_s = self._contact.step_s if in_contact else self._moving_step_s
@@ -186,7 +184,7 @@ class Plant:
             elapsed_s=elapsed_s,
             lag_s=self._drives.lag_s,
         )
-        moved = replace(state, t_s=end_s, motors=motors, carriages=carriages)
+        moved = state._replace(t_s=end_s, motors=motors, carriages=carriages)
         free = self._push_slide(moved, around, slide_mm)
         moved, share = self._within_force(state, moved, free, around, slide_mm)
         travel_mm = moved.motors.rho3_mm - state.motors.rho3_mm
@@ -197,8 +195,7 @@ class Plant:
         rail = [
             v + a * elapsed_s for v, a in zip(wanted.velocity, wanted.acceleration, strict=True)
         ]
-        return replace(
-            moved,
+        return moved._replace(
             velocity=STILL if steady else JointVelocity(rail[0], rail[1], travel_mm / elapsed_s),
             blocked_since_s=since_s if blocked else None,
             steady=steady,
@@ -215,7 +212,10 @@ class Plant:
         motors, carriages = list(state.motors), list(state.carriages)
         for i, axis in enumerate(self._rail):
             q, v, a = wanted.position[i], wanted.velocity[i], wanted.acceleration[i]
-            motors[i] = axis.counter(q + elapsed_s * (v + 0.5 * a * elapsed_s))
+            counter_mm = axis.counter(q + elapsed_s * (v + 0.5 * a * elapsed_s))
+            if v == a == 0.0 and counter_mm == motors[i]:
+                continue
+            motors[i] = counter_mm
             carriages[i] = axis.carriage(
                 carriages[i],
                 around.zero[i],
@@ -236,20 +236,19 @@ class Plant:
         carriage_mm = with_play(
             state.carriages.rho3_mm, around.zero.rho3_mm + motor_mm, self._drives.backlash_mm[2]
         )
-        state = replace(
-            state,
+        state = state._replace(
             motors=state.motors._replace(rho3_mm=motor_mm),
             carriages=state.carriages._replace(rho3_mm=carriage_mm),
         )
         tip = self.tip(state)
         depth_mm, lateral_mm = around.socket.depth_and_lateral_mm(tip)
         if depth_mm < 0 and state.contact.place is Place.FREE:
-            contact = replace(state.contact, depth_mm=depth_mm)
+            contact = state.contact._replace(depth_mm=depth_mm)
         else:
             contact = around.socket.contact.moved(
                 state.contact, depth_mm, lateral_mm, self.platform(state)
             )
-        return replace(state, contact=contact)
+        return state._replace(contact=contact)
 
     def _within_force(
         self,
@@ -283,6 +282,8 @@ class Plant:
         if state.contact.place is not Place.IN_SOCKET or entry is None:
             return 0.0
         now = self.platform(state)
+        if now == entry:
+            return 0.0
         dx, dy = now.x_mm - entry.x_mm, now.y_mm - entry.y_mm
         along = socket.depth_along(dx, dy, 0.0)
         return math.sqrt(max(dx * dx + dy * dy - along * along, 0.0))

@@ -9,8 +9,8 @@ the opening meets the panel, another spring.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from enum import Enum
+from typing import NamedTuple
 
 from drivers.simulator.interpolation import interpolated
 from drivers.simulator.parameters import ContactParameters
@@ -25,8 +25,7 @@ class Place(Enum):
     AGAINST_PANEL = "against_panel"
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(NamedTuple):
     """State of the contact.
 
     Attributes:
@@ -86,11 +85,10 @@ class SocketContact:
             platform: Where V is, to be remembered at the entry.
         """
         if depth_mm < 0:
-            return replace(contact, place=Place.FREE, depth_mm=depth_mm, slip_mm=0.0, force_n=0.0)
+            return contact._replace(place=Place.FREE, depth_mm=depth_mm, slip_mm=0.0, force_n=0.0)
         if contact.place is Place.FREE:
             fits = lateral_mm <= self._parameters.compliance_mm
-            contact = replace(
-                contact,
+            contact = contact._replace(
                 place=Place.IN_SOCKET if fits else Place.AGAINST_PANEL,
                 depth_mm=0.0,
                 entry_lateral_mm=lateral_mm,
@@ -98,7 +96,7 @@ class SocketContact:
             )
         if contact.place is Place.AGAINST_PANEL:
             force_n = self._parameters.jam_stiffness_n_mm * depth_mm
-            return replace(contact, depth_mm=depth_mm, force_n=force_n)
+            return contact._replace(depth_mm=depth_mm, force_n=force_n)
         return self._rubbed(contact, depth_mm, lateral_mm)
 
     def _rubbed(self, contact: Contact, depth_mm: float, lateral_mm: float) -> Contact:
@@ -113,4 +111,4 @@ class SocketContact:
         if contact.locked_at_mm is not None:
             pulled_mm = max(contact.locked_at_mm - depth_mm, 0.0)
             force_n -= self._parameters.lock_stiffness_n_mm * pulled_mm
-        return replace(contact, depth_mm=depth_mm, slip_mm=slip_mm, force_n=force_n)
+        return contact._replace(depth_mm=depth_mm, slip_mm=slip_mm, force_n=force_n)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -177,9 +178,9 @@ class SimulatedWorld:
             self._socket, self._zero, self._force_limit_n / self._force_scale, self._slide_jammed
         )
 
-    def _change(self, **changes: object) -> None:
+    def _change(self, **changes: Any) -> None:
         """Something happened from outside: the plant may no longer be steady."""
-        self._state = replace(self._state, steady=False, **changes)  # type: ignore[arg-type]  # the names are PlantState's
+        self._state = self._state._replace(steady=False, **changes)
         self._history.append(self._state)
 
     def _state_at(self, t_s: float) -> PlantState:
@@ -243,7 +244,7 @@ class SimulatedWorld:
     def lock_connector(self, *, locked: bool, now_s: float) -> None:
         """Close or open the lock of the connector."""
         contact = self.advance(now_s).contact
-        self._change(contact=replace(contact, locked_at_mm=contact.depth_mm if locked else None))
+        self._change(contact=contact._replace(locked_at_mm=contact.depth_mm if locked else None))
 
     def _report_connection(self) -> None:
         contact = self._state.contact
