@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import segno
 from numpy.typing import NDArray
@@ -10,13 +12,14 @@ QUIET_ZONE_MODULES = 4
 """White margin that the QR standard (ISO/IEC 18004) asks for on every side."""
 
 
+@lru_cache(maxsize=16)
 def label_modules(payload: str) -> NDArray[np.bool_]:
     """Module matrix of a printed label: level Q, smallest version that fits, never micro.
 
     One fixed setting, so that the matrix of a label follows from its text alone.
 
     Returns:
-        True is black, shape (n, n), row 0 the top row.
+        True is black, shape (n, n), row 0 the top row; read-only.
 
     Raises:
         ValueError: the text is empty or too long for a QR code.
@@ -29,7 +32,9 @@ def label_modules(payload: str) -> NDArray[np.bool_]:
     except segno.DataOverflowError as error:
         msg = f"{len(payload)} characters are too many for one QR code; shorten the text"
         raise ValueError(msg) from error
-    return np.array(code.matrix, dtype=np.bool_)
+    modules = np.array(code.matrix, dtype=np.bool_)
+    modules.flags.writeable = False  # it is shared through the cache
+    return modules
 
 
 def label_reflectance(
