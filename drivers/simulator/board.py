@@ -212,36 +212,39 @@ class SimulatedBoard:
     def sync(self, now_s: float) -> PlantState:
         """Bring plant and board up to date."""
         state = self.world.advance(now_s)
-        if self.state in MOVING:
-            self._find_faults(state, now_s)
-        self._moving = not state.steady or now_s < self.world.line.rests_from_s
+        if self.state in MOVING and self._find_fault(state, now_s):
+            state = self.world.advance(now_s)
+        # a slide that pushes in vain has not arrived: it will move on, or stall
+        in_vain = state.blocked_since_s is not None
+        self._moving = in_vain or not state.steady or now_s < self.world.line.rests_from_s
         if not self._moving:
             self._come_to_rest()
         return state
 
-    def _find_faults(self, state: PlantState, now_s: float) -> None:
+    def _find_fault(self, state: PlantState, now_s: float) -> bool:
+        """Latch what is wrong, if anything is."""
         pressed = [
             name
             for name, closed in zip(JOINTS, self.pressed_switches(state), strict=True)
             if closed
         ]
-        if pressed and self.state is not BoardState.HOMING:
-            detail = f"The limit switch of {' and '.join(pressed)} opened."
-            self.latch(FaultCode.LIMIT_SWITCH, detail, now_s)
-            return
-        if self.state is BoardState.RUN and self.world.line.ran_empty(now_s):
-            detail = "The queue ran empty while the robot was moving."
-            self.latch(FaultCode.QUEUE_UNDERRUN, detail, now_s)
-            return
-        since_s = state.blocked_since_s
-        if since_s is not None and now_s - since_s >= self._numbers.stall_s:
-            detail = "The slide pushes at its force limit and does not move."
-            self.latch(FaultCode.STALL, detail, now_s)
-            return
         error_mm = self.world.line.at(now_s).position.rho3_mm - state.motors.rho3_mm
-        if abs(error_mm) > self._numbers.following_error_mm:
+        if pressed and self.state is not BoardState.HOMING:
+            code = FaultCode.LIMIT_SWITCH
+            detail = f"The limit switch of {' and '.join(pressed)} opened."
+        elif self.state is BoardState.RUN and self.world.line.ran_empty(now_s):
+            code = FaultCode.QUEUE_UNDERRUN
+            detail = "The queue ran empty while the robot was moving."
+        elif state.blocked_for_s >= self._numbers.stall_s:
+            code = FaultCode.STALL
+            detail = "The slide pushes at its force limit and does not move."
+        elif abs(error_mm) > self._numbers.following_error_mm:
+            code = FaultCode.FOLLOWING_ERROR
             detail = f"The slide is {abs(error_mm):.1f} mm away from where it should be."
-            self.latch(FaultCode.FOLLOWING_ERROR, detail, now_s)
+        else:
+            return False
+        self.latch(code, detail, now_s)
+        return True
 
     def _come_to_rest(self) -> None:
         if self.state is BoardState.RUN or self.state is BoardState.STOPPING:

@@ -39,8 +39,8 @@ def build_garage(
     mount: CameraMount,
     optics: CameraModel,
     parameters: SimulationParameters,
-    seed: int,
     *,
+    seed: int,
     imaging: ImagingParameters | None = None,
 ) -> SimulatedGarage:
     """Build a garage whose robot, camera and car differ from their drawings by chance.

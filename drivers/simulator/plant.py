@@ -52,6 +52,11 @@ class PlantState(NamedTuple):
     max_force_n: float = 0.0
     lateral_violation_mm: float = 0.0
 
+    @property
+    def blocked_for_s(self) -> float:
+        """How long the rho3 motor has pushed at its force limit without moving."""
+        return 0.0 if self.blocked_since_s is None else self.t_s - self.blocked_since_s
+
 
 class Socket:
     """The socket of the parked car in the base frame.

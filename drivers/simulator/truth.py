@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from drivers.simulator.car import ParkedCar
+from drivers.simulator.parameters import ContactParameters
+from drivers.simulator.plant import Plant, PlantState
+from drivers.simulator.socket_contact import Place
 from drivers.simulator.view import Pose
+from drivers.simulator.watching import plug_pose
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,3 +47,52 @@ class GroundTruth:
     lateral_violation_mm: float
     locked: bool
     load_breaks: int
+
+
+def ground_truth(
+    plant: Plant,
+    state: PlantState,
+    car: ParkedCar,
+    numbers: ContactParameters,
+    *,
+    load_breaks: int,
+) -> GroundTruth:
+    """The truth about a state of the plant.
+
+    Args:
+        plant: The robot as built.
+        state: Its state.
+        car: The car in front of it.
+        numbers: Say when a plug is seated.
+        load_breaks: How often the plug was pulled while power flowed.
+    """
+    plug, socket, contact = plug_pose(plant, state), car.T_base_socket, state.contact
+    depth_mm = float((plug[:3, 3] - socket[:3, 3]) @ socket[:3, 2])
+    lateral_mm = contact.entry_lateral_mm
+    return GroundTruth(
+        at_s=state.t_s,
+        T_base_plug=plug,
+        T_base_socket=socket.copy(),
+        lateral_error_mm=lateral_at_face_mm(plug, socket) if lateral_mm is None else lateral_mm,
+        insertion_depth_mm=depth_mm,
+        contact_force_n=contact.force_n,
+        max_contact_force_n=state.max_force_n,
+        seated=contact.place is Place.IN_SOCKET and depth_mm >= numbers.seated_depth_mm,
+        jammed=contact.place is Place.AGAINST_PANEL,
+        lateral_violation_mm=state.lateral_violation_mm,
+        locked=contact.locked_at_mm is not None,
+        load_breaks=load_breaks,
+    )
+
+
+def lateral_at_face_mm(plug: Pose, socket: Pose) -> float:
+    """Where the plug's axis pierces the plane of the socket's face, from the face's centre.
+
+    Args:
+        plug: T_base_plug.
+        socket: T_base_socket.
+    """
+    axis, normal = plug[:3, 2], socket[:3, 2]
+    to_face = socket[:3, 3] - plug[:3, 3]
+    pierced = axis * float(to_face @ normal) / float(axis @ normal)
+    return float(np.linalg.norm(pierced - to_face))

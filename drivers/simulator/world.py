@@ -9,11 +9,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
-from drivers.simulator import poses
 from drivers.simulator.build import built_geometry, built_mount
 from drivers.simulator.car import ParkedCar, park
 from drivers.simulator.parameters import SimulationParameters
@@ -22,8 +20,9 @@ from drivers.simulator.randomness import Streams
 from drivers.simulator.sag import RobotSag
 from drivers.simulator.set_points import SetPointLine
 from drivers.simulator.socket_contact import FREE, Place, SocketContact
-from drivers.simulator.truth import GroundTruth
-from drivers.simulator.view import CameraView, Pose
+from drivers.simulator.truth import GroundTruth, ground_truth
+from drivers.simulator.view import CameraView
+from drivers.simulator.watching import camera_view
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
@@ -149,7 +148,7 @@ class SimulatedWorld:
             raise CarIsPluggedInError("the plug is in the socket: withdraw it first")
         self._parked = car
         self._take_in(car)
-        self._change(contact=FREE, max_force_n=0.0, lateral_violation_mm=0.0)
+        self._disturb(self._state._replace(contact=FREE, max_force_n=0.0, lateral_violation_mm=0.0))
 
     def _take_in(self, car: ParkedCar) -> None:
         self._car = car
@@ -178,9 +177,9 @@ class SimulatedWorld:
             self._socket, self._zero, self._force_limit_n / self._force_scale, self._slide_jammed
         )
 
-    def _change(self, **changes: Any) -> None:
-        """Something happened from outside: the plant may no longer be steady."""
-        self._state = self._state._replace(steady=False, **changes)
+    def _disturb(self, state: PlantState) -> None:
+        """Something happened from outside: this is the state now, and it may not be steady."""
+        self._state = state._replace(steady=False)
         self._history.append(self._state)
 
     def _state_at(self, t_s: float) -> PlantState:
@@ -195,9 +194,9 @@ class SimulatedWorld:
 
     def set_force_limit(self, force_n: float, now_s: float) -> None:
         """Let the rho3 motor push and pull no harder, as far as its current tells [N]."""
-        self.advance(now_s)
+        state = self.advance(now_s)
         self._force_limit_n = force_n
-        self._change()
+        self._disturb(state)
 
     def measured_force_n(self, state: PlantState) -> float:
         """Force of the rho3 motor as its current shows it, without noise."""
@@ -210,9 +209,9 @@ class SimulatedWorld:
 
     def drive_to(self, position: JointPosition, now_s: float) -> None:
         """Make the set point jump; the joints rest there from now on."""
-        self.advance(now_s)
+        state = self.advance(now_s)
         self.line.jump(now_s, position)
-        self._change()
+        self._disturb(state)
 
     def renumber(self, joint: int, counter_mm: float, now_s: float) -> None:
         """Give a joint at rest another coordinate; nothing moves.
@@ -228,7 +227,7 @@ class SimulatedWorld:
         motors[joint] = counter_mm
         self._zero = JointPosition(*zero)
         self.line.jump(now_s, JointPosition(*motors))
-        self._change(motors=JointPosition(*motors))
+        self._disturb(state._replace(motors=JointPosition(*motors)))
 
     # --- the station's side ------------------------------------------------------------------
 
@@ -243,8 +242,9 @@ class SimulatedWorld:
 
     def lock_connector(self, *, locked: bool, now_s: float) -> None:
         """Close or open the lock of the connector."""
-        contact = self.advance(now_s).contact
-        self._change(contact=contact._replace(locked_at_mm=contact.depth_mm if locked else None))
+        state = self.advance(now_s)
+        locked_at_mm = state.contact.depth_mm if locked else None
+        self._disturb(state._replace(contact=state.contact._replace(locked_at_mm=locked_at_mm)))
 
     def _report_connection(self) -> None:
         contact = self._state.contact
@@ -261,70 +261,25 @@ class SimulatedWorld:
 
     def jam_slide(self, now_s: float) -> None:
         """Block the slide where it stands."""
-        self.advance(now_s)
+        state = self.advance(now_s)
         self._slide_jammed = True
-        self._change()
+        self._disturb(state)
 
     def free_slide(self, now_s: float) -> None:
         """Take away what blocks the slide."""
-        self.advance(now_s)
+        state = self.advance(now_s)
         self._slide_jammed = False
-        self._change()
+        self._disturb(state)
 
     # --- what is seen and what is true -------------------------------------------------------
 
     def view_at(self, t_s: float) -> CameraView:
         """The scene in the camera frame at a time of the recent past or the near future [s]."""
-        state = self._state_at(t_s)
-        v = self._plant.platform(state)
-        geometry = self._plant.geometry
-        base_platform = poses.pose(np.eye(3), np.array([v.x_mm, v.y_mm, 0.0]))
-        camera_base = poses.inverse(base_platform @ self._platform_camera)
-        legs = alpha.leg_vectors(geometry, v, state.carriages.rho1_mm, state.carriages.rho2_mm)
-        camera_velocity = np.zeros(3)
-        camera_velocity[:2] = alpha.jacobian(legs) @ np.array(state.velocity[:2])
-        return CameraView(
-            T_camera_label=camera_base @ self._car.T_base_label,
-            T_camera_socket=camera_base @ self._car.T_base_socket,
-            T_camera_plug=camera_base @ self._plug_pose(state),
-            label_velocity_mm_s=-camera_base[:3, :3] @ camera_velocity,
-            payload=self._car.payload,
-            label_size_mm=self._car.label_size_mm,
-        )
+        return camera_view(self._plant, self._state_at(t_s), self._platform_camera, self._car)
 
     def truth(self, at_s: float | None = None) -> GroundTruth:
         """The truth at a time, or when something was last worked out."""
         state = self._state if at_s is None else self.advance(at_s)
-        tip = self._plant.tip(state)
-        contact = state.contact
-        depth_mm, _ = self._socket.depth_and_lateral_mm(tip)
-        lateral_mm = contact.entry_lateral_mm
-        if lateral_mm is None:
-            lateral_mm = self._lateral_at_face_mm(state)
-        inside = contact.place is Place.IN_SOCKET
-        return GroundTruth(
-            at_s=state.t_s,
-            T_base_plug=self._plug_pose(state),
-            T_base_socket=self._car.T_base_socket.copy(),
-            lateral_error_mm=lateral_mm,
-            insertion_depth_mm=depth_mm,
-            contact_force_n=contact.force_n,
-            max_contact_force_n=state.max_force_n,
-            seated=inside and depth_mm >= self.parameters.contact.seated_depth_mm,
-            jammed=contact.place is Place.AGAINST_PANEL,
-            lateral_violation_mm=state.lateral_violation_mm,
-            locked=contact.locked_at_mm is not None,
-            load_breaks=self.load_breaks,
+        return ground_truth(
+            self._plant, state, self._car, self.parameters.contact, load_breaks=self.load_breaks
         )
-
-    def _plug_pose(self, state: PlantState) -> Pose:
-        axes = poses.facing_the_car(self._plant.geometry)
-        return poses.pose(axes, np.array(self._plant.tip(state)))
-
-    def _lateral_at_face_mm(self, state: PlantState) -> float:
-        """Where the plug's axis pierces the plane of the socket's face, from its centre."""
-        plug, socket = self._plug_pose(state), self._car.T_base_socket
-        axis, normal = plug[:3, 2], socket[:3, 2]
-        to_face = socket[:3, 3] - plug[:3, 3]
-        pierced = axis * float(to_face @ normal) / float(axis @ normal)
-        return float(np.linalg.norm(pierced - to_face))
