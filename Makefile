@@ -2,6 +2,7 @@
 
 PYTHON ?= python3
 ARGS ?=
+UPGRADE ?=
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -42,12 +43,12 @@ bench: setup-dev ## run the benchmarks
 		$(BIN)/python -m tests.bench.$$name || exit 1; \
 	done
 
-lock: $(BIN)/python ## choose the newest allowed versions and write the lock files
+lock: $(BIN)/python ## write the lock files; UPGRADE=--upgrade takes the newest allowed versions
 	@$(PIP) "uv>=0.8,<1"
-	@$(COMPILE) --upgrade pyproject.toml --group build --output-file requirements.lock
-	@$(COMPILE) --upgrade pyproject.toml --group build --group dev \
+	@$(COMPILE) $(UPGRADE) pyproject.toml --group build --output-file requirements.lock
+	@$(COMPILE) $(UPGRADE) pyproject.toml --group build --group dev \
 		--constraints requirements.lock --output-file requirements-dev.lock
-	@$(COMPILE) --upgrade --group node --output-file requirements-node.lock
+	@$(COMPILE) $(UPGRADE) --group node --output-file requirements-node.lock
 
 clean: ## remove everything that was installed or built, but no data
 	@rm -rf $(VENV) server/static web/node_modules dist build \

@@ -2,10 +2,11 @@
 
 import sys
 
-if sys.version_info < (3, 11):
+if sys.version_info < (3, 11):  # noqa: UP036 - this file is for those that are older
     sys.exit(
-        "PlugPilot needs Python 3.11 or newer, but %s is %d.%d. "
-        "Name another one, as in: make run PYTHON=python3.12" % ((sys.executable,) + sys.version_info[:2])
+        f"PlugPilot needs Python 3.11 or newer, but {sys.executable} is "
+        f"{sys.version_info[0]}.{sys.version_info[1]}. "
+        "Name another one, as in: make run PYTHON=python3.12"
     )
 try:
     import ensurepip  # noqa: F401 - Debian leaves it out of its python3 package

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import re
+import sys
 import tomllib
+from importlib.metadata import packages_distributions
 from pathlib import Path
 from typing import Any
 
 import pytest
 from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 from packaging.version import Version
 
+from tests.support.imports import arrows_in
+
 PROJECT = Path(__file__).parents[1]
+ROOMS = ("server", "drivers", "twin")
+PARTS_OF = {"pydantic-core": "pydantic", "starlette": "fastapi", "typing-extensions": "pydantic"}
+"""Libraries that another one brings along and shows in its own interface."""
 
 
 def pyproject() -> dict[str, Any]:
@@ -37,6 +45,22 @@ def wanted(lock: str) -> list[Requirement]:
         "requirements-node.lock": groups["node"],
     }
     return [Requirement(line) for line in lines[lock]]
+
+
+def test_everything_that_is_imported_is_required() -> None:
+    required = {
+        canonicalize_name(Requirement(d).name) for d in pyproject()["project"]["dependencies"]
+    }
+    distributions = packages_distributions()
+    missing = set()
+    for arrow in arrows_in(PROJECT, ROOMS):
+        module = arrow.imported.partition(".")[0]
+        if module in {*ROOMS, *sys.stdlib_module_names, "_typeshed"}:
+            continue
+        names = {canonicalize_name(name) for name in distributions.get(module, [module])}
+        if not {PARTS_OF.get(name, name) for name in names} & required:
+            missing.add(str(arrow))
+    assert not missing, "\n".join(["not in pyproject.toml:", *sorted(missing)])
 
 
 LOCKS = ("requirements.lock", "requirements-dev.lock", "requirements-node.lock")
