@@ -7,7 +7,7 @@ import pytest
 
 import twin.errors
 import twin.kinematics
-import twin.motion  # noqa: F401 - the tree is complete only when its branches are loaded
+import twin.motion
 from twin.errors import TwinError
 
 
