@@ -17,6 +17,8 @@ from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
 from twin.geometry import RobotGeometry
+from twin.joints import JointPosition
+from twin.kinematics import PlatformPosition, UnreachableError, alpha, check_joint_limits
 from twin.motion.limits import MotionLimits
 
 
@@ -69,10 +71,15 @@ class Settings(BaseSettings):
                 f" = {needed:g} mm, but geometry.rho3 travels only {slide.stroke_mm:g} mm"
             )
             raise ValueError(msg)
-        if slide.excess_mm(self.park.rho3_mm) != 0:
-            msg = (
-                f"park.rho3_mm = {self.park.rho3_mm:g} lies outside geometry.rho3, which goes "
-                f"from {slide.min_mm:g} to {slide.max_mm:g} mm"
-            )
-            raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _park_position_is_reachable(self) -> Self:
+        park = self.park
+        try:
+            carriages = alpha.inverse(self.geometry, PlatformPosition(park.x_mm, park.y_mm))
+            check_joint_limits(self.geometry, JointPosition(*carriages, park.rho3_mm))
+        except UnreachableError as error:
+            msg = f"the robot cannot reach [park]: {error}"
+            raise ValueError(msg) from error
         return self
