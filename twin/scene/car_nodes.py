@@ -1,0 +1,58 @@
+"""The car in the picture: body, inlet, wheels and label."""
+
+from __future__ import annotations
+
+import math
+
+from viser import SceneApi
+
+from twin.geometry import RobotGeometry
+from twin.scene import car, layers, plug_parts, poses
+from twin.scene.frames import turn
+from twin.scene.materials import CHARGING, IDLE, PLUGGED, Rgb
+from twin.scene.nodes import add_part, add_pivot, add_signal, place, place_transform, set_visible
+from twin.scene.shapes import lathe
+from twin.scene.state import TwinState
+
+
+class CarNodes:
+    """The car hangs on its socket; its wheels stay on the floor whatever was measured.
+
+    Without a measured socket it is a pale shape at the nominal place.
+    """
+
+    def __init__(self, scene: SceneApi, geometry: RobotGeometry) -> None:
+        self._nominal = poses.nominal_socket(geometry)
+        theta = geometry.theta_rad
+        self.car = add_pivot(scene, "/car")
+        self.body = add_part(scene, "/car/body", car.body(theta))
+        add_part(scene, "/car/inlet", car.inlet())
+        self.faded = add_signal(scene, "/car/faded", car.silhouette(theta), IDLE, opacity=0.22)
+        r = plug_parts.CAVITY_RADIUS + 13.0
+        ring = lathe([(r + 1, -2), (r + 5, -5), (r + 9, -2), (r + 9, 3)], count=56)
+        self.ring = add_signal(scene, "/car/ring", ring, IDLE)
+        self.wheels = add_part(scene, "/wheels", car.wheels())
+        self.label = add_part(scene, "/label", car.label())
+
+    def show(self, state: TwinState) -> None:
+        """Moves the car and its label to where they were measured; lights the inlet's ring."""
+        known = state.T_base_socket is not None
+        T_socket = (
+            self._nominal if state.T_base_socket is None else poses.upright(state.T_base_socket)
+        )
+        set_visible(self.body, visible=known)
+        set_visible(self.wheels, visible=known)
+        set_visible(self.faded, visible=not known)
+        place_transform(self.car, T_socket)
+        x, _, z = (float(value) for value in T_socket[:3, 3])
+        heading_rad = math.atan2(float(T_socket[0, 2]), float(T_socket[2, 2]))
+        place(self.wheels, (x, layers.FLOOR_Y, z), turn((0.0, 1.0, 0.0), heading_rad))
+        T_label = state.T_base_label
+        place_transform(self.label, poses.nominal_label(T_socket) if T_label is None else T_label)
+        self.ring.color = _ring_color(state)
+
+
+def _ring_color(state: TwinState) -> Rgb:
+    if state.charging:
+        return CHARGING
+    return PLUGGED if state.plug == "inserted" else IDLE

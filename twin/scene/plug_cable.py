@@ -1,0 +1,70 @@
+"""The charging cable between the station and the plug, one instanced mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from viser import SceneApi
+
+from twin.scene import cable
+from twin.scene.frames import METRES_PER_MM
+from twin.scene.materials import CABLE, CHARGING
+from twin.scene.plug_parts import CABLE_RADIUS
+from twin.scene.shapes import lathe
+
+_MOVED_MM = 0.2
+"""A plug that moved less leaves the cable as it is drawn."""
+_PULSE_SEGMENTS = 12
+"""Distance of two light pulses that run along the cable while it charges."""
+
+
+def _link() -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+    """One link of the cable with round ends, so that bends show no gaps [m]."""
+    half = cable.LENGTH_MM / cable.SEGMENTS / 2
+    r = CABLE_RADIUS
+    profile = [(0.0, -half - r), (0.7 * r, -half - 0.7 * r), (r, -half)]
+    profile += [(radius, -z) for radius, z in reversed(profile)]
+    mesh = lathe(profile, count=12)
+    return (mesh.vertices_mm * METRES_PER_MM).astype(np.float32), mesh.faces
+
+
+class PlugCable:
+    """The cable's node; its links are placed along a catenary whenever the plug has moved."""
+
+    def __init__(self, scene: SceneApi, start_mm: NDArray[np.float64]) -> None:
+        self._start_mm = start_mm
+        self._end_mm: NDArray[np.float64] | None = None
+        self._pulse: int | None = None
+        vertices, faces = _link()
+        self.node = scene.add_batched_meshes_simple(
+            "/cable",
+            vertices=vertices,
+            faces=faces,
+            batched_wxyzs=np.tile([1.0, 0.0, 0.0, 0.0], (cable.SEGMENTS, 1)),
+            batched_positions=np.zeros((cable.SEGMENTS, 3)),
+            batched_colors=np.tile(np.array(CABLE, dtype=np.uint8), (cable.SEGMENTS, 1)),
+            lod="off",
+            visible=False,
+        )
+
+    def hang_to(self, end_mm: NDArray[np.float64]) -> None:
+        """Lets the cable hang between the station and a point in the base frame [mm]."""
+        if self._end_mm is not None and np.abs(end_mm - self._end_mm).max() < _MOVED_MM:
+            return
+        self._end_mm = end_mm
+        middles, orientations = cable.along(cable.hanging(self._start_mm, end_mm))
+        self.node.batched_positions = (middles * METRES_PER_MM).astype(np.float32)
+        self.node.batched_wxyzs = orientations.astype(np.float32)
+
+    def show_flow(self, step: int | None) -> None:
+        """Shows light pulses that run to the car, one link per step, or none."""
+        pulse = None if step is None else step % _PULSE_SEGMENTS
+        if pulse == self._pulse:
+            return
+        self._pulse = pulse
+        colors = np.tile(np.array(CABLE, dtype=np.uint8), (cable.SEGMENTS, 1))
+        if pulse is not None:
+            distance = (np.arange(cable.SEGMENTS) - pulse) % _PULSE_SEGMENTS
+            share = np.clip(1 - np.minimum(distance, _PULSE_SEGMENTS - distance) / 3, 0, 1)[:, None]
+            colors = np.round(colors * (1 - share) + np.array(CHARGING) * share).astype(np.uint8)
+        self.node.batched_colors = colors

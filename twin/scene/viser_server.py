@@ -1,0 +1,85 @@
+"""The 3D library's server, closed to everything but our own bridge.
+
+Everything here that starts with an underscore in viser is private to it. The dependency is
+pinned to one version and every hook has a test of its own.
+"""
+
+from __future__ import annotations
+
+import socket
+from typing import TYPE_CHECKING
+
+import rich
+import viser
+from viser import _messages as messages
+
+if TYPE_CHECKING:
+    from viser.infra import WebsockClientConnection
+
+LOOPBACK = "127.0.0.1"
+SEND_BUFFER_BYTES = 32 * 1024
+"""Kernel buffer of each connection. The default grows to megabytes, which would be minutes of
+stale poses for a slow phone; with a small one viser sends the newest state instead."""
+
+_COMPACT_FROM_MESSAGES = 100_000
+
+
+def open_server() -> viser.ViserServer:
+    """Starts viser on a free loopback port, without its public share tunnel.
+
+    Any client can ask viser for a tunnel that opens the server to the internet, so the handlers
+    of those requests are taken away.
+    """
+    rich.get_console().quiet = True  # viser prints a banner whatever it is told
+    server = viser.ViserServer(host=LOOPBACK, port=0, verbose=False)
+    raw = server._websock_server  # noqa: SLF001
+    raw.unregister_handler(messages.ShareUrlRequest)
+    raw.unregister_handler(messages.ShareUrlDisconnect)
+
+    @raw.on_client_connect
+    def _(connection: WebsockClientConnection) -> None:
+        live = raw._live_connections.get(connection.client_id)  # noqa: SLF001
+        if live is not None:
+            peer = live.transport.get_extra_info("socket")
+            peer.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+
+    return server
+
+
+def watchers(server: viser.ViserServer) -> int:
+    """Number of connected browsers."""
+    return len(server._websock_server._live_connections)  # noqa: SLF001
+
+
+def compact(server: viser.ViserServer, *, from_messages: int = _COMPACT_FROM_MESSAGES) -> bool:
+    """Renumbers the messages that a new browser is sent, once enough numbers were used up.
+
+    viser 1.1.1 looks at every number ever used when a browser joins, about 0.1 s for a million,
+    and does nothing else meanwhile. So the numbers start again while nobody watches.
+
+    Args:
+        server: The server.
+        from_messages: Number of used numbers below which nothing is done.
+
+    Returns:
+        Whether the messages were renumbered; False also when somebody is watching.
+    """
+    buffer = server._websock_server._broadcast_buffer  # noqa: SLF001
+    with buffer.buffer_lock:
+        if (
+            buffer.message_counter < from_messages
+            or buffer.generator_cursors
+            or watchers(server) > 0
+        ):
+            return False
+        number = {old: new for new, old in enumerate(sorted(buffer.message_from_id))}
+        buffer.message_from_id = {new: buffer.message_from_id[old] for old, new in number.items()}
+        buffer.id_from_redundancy_key = {
+            key: number[old] for key, old in buffer.id_from_redundancy_key.items() if old in number
+        }
+        buffer.ids_from_entity_state_key = {
+            key: {number[old] for old in ids}
+            for key, ids in buffer.ids_from_entity_state_key.items()
+        }
+        buffer.message_counter = len(number)
+        return True
