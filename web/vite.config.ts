@@ -41,6 +41,7 @@ export default defineConfig({
     modulePreload: { polyfill: false },
   },
   server: {
+    fs: { allow: [".."] },
     proxy: {
       "/api": { target: robot, ws: true },
       "/twin": { target: robot, ws: true },
@@ -48,8 +49,11 @@ export default defineConfig({
   },
   test: {
     dir: "../tests/web",
-    include: ["**/*.test.{ts,tsx}"],
+    include: ["**/*.test.ts"],
+    setupFiles: ["../tests/web/setup.ts"],
     environment: "happy-dom",
+    // Frames stay empty in the tests: that is no error.
+    environmentOptions: { happyDOM: { settings: { handleDisabledFileLoadingAsSuccess: true } } },
     restoreMocks: true,
   },
 });

@@ -5,6 +5,8 @@ import "./style/tokens.css";
 import "./style/page.css";
 import "./style/controls.css";
 import "./style/cards.css";
+import "./style/steps.css";
+import "./style/views.css";
 import "./style/picture.css";
 
 const root = document.getElementById("app");

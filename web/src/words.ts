@@ -133,13 +133,11 @@ export const words = {
     plugOut: "Yes, it is out",
     plugIn: "No, it is still in",
     busy: "One moment…",
-    reload: "Load again",
     stop: "Stop",
     stopHint: "Stops every movement at once",
     stopping: "Stopping…",
     emergency: "Emergency stop",
     dismiss: "Got it",
-    close: "Close",
     back: "Not yet",
   },
   confirmReset: {
@@ -154,7 +152,7 @@ export const words = {
     note: "If you are not sure, go and look first.",
     yes: "Yes, it is out",
   },
-  chooseCar: { title: "Which car?", none: "No car is known yet." },
+  chooseCar: { title: "Which car?" },
   noCar: {
     code: "no_vehicle",
     title: "No car is known yet",
@@ -184,7 +182,7 @@ export const words = {
   },
   link: { connecting: "Connecting", live: "Live", lost: "Reconnecting", quiet: "No news" },
   simulator: (speed: number): string => (speed === 1 ? "Simulator" : `Simulator ×${String(speed)}`),
-  steps: { title: "Progress", done: "done", now: "now", failed: "failed here" },
+  steps: { title: "Progress", done: "done" },
   station: {
     title: "Charging station",
     power: "Power",
@@ -203,7 +201,6 @@ export const words = {
     cameraOff: "The camera is not answering.",
     twinFailed: "The 3D view is not moving with the robot right now.",
     retry: "Try again",
-    close: "Close",
     loading: "Loading…",
   },
   robot: {

@@ -28,7 +28,7 @@ export function Hero() {
 
 function ActionButtons({ action }: { action: Action }) {
   const disabled = pending.value || !canAct.value;
-  const quiet = action.kind === "cancel";
+  const quiet = description.value.tone === "busy";
   const job = store.live.value?.job;
   const failed = job?.state === "failed" && job.id !== dismissedJobId.value ? job : null;
   return (

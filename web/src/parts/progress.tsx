@@ -3,14 +3,12 @@ import { formatDuration } from "@/format";
 import { store } from "@/live/page";
 import { isActive, phaseElapsedS, stepsOf } from "@/robot/job";
 import type { Step } from "@/robot/job";
-import { dismissedJobId } from "@/robot/view";
 import { words } from "@/words";
 
-/** The steps of the running job, or of one that failed, until that is put away. */
+/** The steps of the running job. */
 export function Progress() {
   const job = store.live.value?.job ?? null;
-  if (job === null) return null;
-  if (!isActive(job) && (job.state !== "failed" || job.id === dismissedJobId.value)) return null;
+  if (!isActive(job)) return null;
   return (
     <section class="card" data-stale={store.stale.value}>
       <h2>{words.steps.title}</h2>
@@ -31,7 +29,6 @@ function StepRow({ step }: { step: Step }) {
       <span class="step-name">
         {words.phases[phase].step}
         {state === "done" && <span class="unseen">, {words.steps.done}</span>}
-        {state === "failed" && <span class="step-note">{words.steps.failed}</span>}
       </span>
       {state === "now" && <Elapsed />}
     </li>

@@ -40,6 +40,11 @@ async function attempt(work: () => Promise<unknown>): Promise<void> {
   }
 }
 
+/** The car in front of the robot, as far as anyone knows. */
+function lastVehicleId(): string | null {
+  return store.live.value?.job?.vehicle_id ?? null;
+}
+
 /** Charges the only car, or asks which one; the car of the last job comes first. */
 async function charge(): Promise<void> {
   const { items } = await listVehicles();
@@ -49,7 +54,7 @@ async function charge(): Promise<void> {
   } else if (others.length === 0) {
     await startJob({ type: "charge", vehicle_id: first.id });
   } else {
-    const last = store.live.value?.job?.vehicle_id;
+    const last = lastVehicleId();
     choice.value = [...items].sort((a, b) => Number(b.id === last) - Number(a.id === last));
   }
 }
@@ -72,7 +77,7 @@ export function press(kind: ActionKind): void {
       void attempt(() => withRunningJob(cancelJob));
       break;
     case "unplug":
-      void attempt(() => startJob({ type: "unplug" }));
+      void attempt(() => startJob({ type: "unplug", vehicle_id: lastVehicleId() }));
       break;
     case "reset":
       question.value = "reset";

@@ -2,7 +2,7 @@
 import type { Job, Live, Robot } from "@/api/wire";
 import { formatEnergy } from "@/format";
 import { words } from "@/words";
-import { isActive, isMovingPhase } from "./job";
+import { isActive, isMovingPhase, isReturning } from "./job";
 
 export type Tone = "calm" | "busy" | "good" | "ask" | "problem";
 
@@ -102,7 +102,7 @@ function describeHalt(robot: Robot, base: Base): Description | null {
         ...withPlugNote(say.emergency, robot),
         tone: "problem",
         scene: alert,
-        action: { kind: "reset", label: label.clear },
+        action: { kind: "reset", label: label.release },
       };
     case "fault": {
       const { fault } = robot;
@@ -139,8 +139,8 @@ function describeJob(robot: Robot, job: Job, base: Base): Description {
     return { ...base, ...say.queued, tone: "busy", scene: { arm, mark: "sync" }, action };
   }
   const scene = sceneOf(job, robot);
-  if (job.cancel_requested) {
-    const sentence = isAttached(job) ? say.ending : say.cancelling;
+  if (job.cancel_requested && !isReturning(job.phase)) {
+    const sentence = isMovingPhase(job.phase) ? say.cancelling : say.ending;
     return { ...base, ...sentence, tone: "busy", scene, action: null };
   }
   const { headline, detail } = words.phases[job.phase];
@@ -156,6 +156,8 @@ function actionOf(job: Job): Action | null {
     case "inserting":
       return cancel();
     case "plugged":
+      // There is no charge to finish yet; a cancelled job unplugs as well.
+      return { kind: "cancel", label: label.finish };
     case "charging":
       return { kind: "finish", label: label.finish };
     case "releasing":
@@ -242,10 +244,6 @@ function cancel(): Action {
 function withPlugNote(sentence: Sentence, robot: Robot): Sentence {
   if (robot.plug !== "inserted") return sentence;
   return { headline: sentence.headline, detail: `${say.stillPlugged} ${sentence.detail}` };
-}
-
-function isAttached(job: Job): boolean {
-  return job.phase === "plugged" || job.phase === "charging" || job.phase === "releasing";
 }
 
 function armOf(robot: Robot): Scene["arm"] {

@@ -12,30 +12,40 @@ export function isMovingPhase(phase: JobPhase): boolean {
   return phase !== "plugged" && phase !== "charging";
 }
 
-const PHASES: Record<JobType, readonly JobPhase[]> = {
-  charge: ["locating", "aligning", "inserting", "charging", "releasing", "withdrawing", "parking"],
-  plug_in: ["locating", "aligning", "inserting", "plugged"],
-  unplug: ["releasing", "withdrawing", "parking"],
-};
+/** On its way back to the parking place, whether all went well or not. */
+export function isReturning(phase: JobPhase): boolean {
+  return RETURN.includes(phase);
+}
 
-export type StepState = "done" | "now" | "failed" | "open";
+const RETURN: readonly JobPhase[] = ["releasing", "withdrawing", "parking"];
+const PHASES: Record<JobType, readonly JobPhase[]> = {
+  charge: ["locating", "aligning", "inserting", "charging", ...RETURN],
+  plug_in: ["locating", "aligning", "inserting", "plugged"],
+  unplug: RETURN,
+};
 
 export interface Step {
   readonly phase: JobPhase;
-  readonly state: StepState;
+  readonly state: "done" | "now" | "open";
 }
 
-/** The steps of a job, each with how far it got. */
-export function stepsOf(job: Job): readonly Step[] {
-  const phases = PHASES[job.type];
+/** The steps of a running job, each with how far it got. */
+export function stepsOf(job: ActiveJob): readonly Step[] {
+  const phases = stepsAhead(job);
   // Preflight comes before every step; waiting for the current belongs to charging.
   const phase = job.type === "charge" && job.phase === "plugged" ? "charging" : job.phase;
   const reached = phases.indexOf(phase);
   return phases.map((each, index) => {
-    if (job.state === "succeeded" || index < reached) return { phase: each, state: "done" };
-    if (index > reached) return { phase: each, state: "open" };
-    return { phase: each, state: isActive(job) ? "now" : "failed" };
+    if (index < reached) return { phase: each, state: "done" };
+    return { phase: each, state: index === reached ? "now" : "open" };
   });
+}
+
+/** A job that turned back early never does the steps it left out: only the way home is left. */
+function stepsAhead(job: ActiveJob): readonly JobPhase[] {
+  const plugged = job.type === "unplug" || job.result.plugged_after_s != null;
+  const turnedBack = isReturning(job.phase) && (job.type === "plug_in" || !plugged);
+  return turnedBack ? RETURN.slice(RETURN.indexOf(job.phase)) : PHASES[job.type];
 }
 
 /**
