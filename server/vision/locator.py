@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from drivers.simulator.camera.label_texture import label_modules
 from server.vision.bit_agreement import bit_agreement
 from server.vision.code_edges import code_edges
 from server.vision.corner_pose import corner_pose
@@ -24,6 +23,7 @@ from server.vision.errors import (
 from server.vision.label_pose import LabelPose
 from server.vision.projection import project
 from server.vision.start_pose import corners_mm, start_poses
+from twin.qr_label import label_modules
 
 Image = NDArray[np.uint8]
 Pose = NDArray[np.float64]

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from drivers.simulator.camera.imaging import ImagingParameters
-from drivers.simulator.camera.label_texture import label_modules, label_reflectance
+from drivers.simulator.camera.label_texture import label_reflectance
 from drivers.simulator.camera.plug_silhouette import draw_plug
 from drivers.simulator.camera.ray_grid import RayGrid
 from drivers.simulator.camera.socket_texture import socket_texture
@@ -16,11 +15,15 @@ from drivers.simulator.camera.textured_plane import (
     Canvas,
     PlaneTexture,
     draw_plane,
-    pixels_per_mm,
 )
 from drivers.simulator.view import CameraView, Pose
+from twin.qr_label import label_modules
 
 _COARSE_PX = 16
+_NEAREST_MM = 10.0
+_SMALLEST_PX = 12.0  # things that look smaller are left out
+_BODY_WITHIN_MM = 5_000.0  # no car nearer than this: the garage is empty
+_EMPTY_GARAGE_REFLECTANCE = 0.18
 _MOST_TEXELS_PER_MODULE = 40
 
 
@@ -37,7 +40,6 @@ class SceneRenderer:
         self._coarse_rays = self._grid.coarse(_COARSE_PX)
         self._socket = socket_texture()
         self._canvas: Canvas = np.zeros((optics.height, optics.width), dtype=np.float32)
-        self._label: tuple[str, NDArray[np.bool_]] = ("", np.zeros((0, 0), dtype=np.bool_))
 
     @property
     def grid(self) -> RayGrid:
@@ -66,24 +68,27 @@ class SceneRenderer:
     def _draw_flat(self, texture: PlaneTexture, pose: Pose, view: CameraView) -> None:
         """Draw a plane that moves with the car."""
         distance_mm = float(pose[2, 3])
-        if distance_mm < 10.0:
+        if distance_mm < _NEAREST_MM:
+            return
+        px_per_mm = self._optics.fx / distance_mm
+        if texture.alpha.shape[0] * texture.texel_mm * px_per_mm < _SMALLEST_PX:
             return
         way = pose[:3, :3].T @ view.label_velocity_mm_s * self._imaging.exposure_s
         blurred = texture.blurred(
             self._imaging.blur_px(distance_mm, self._optics),
             (float(way[0]), float(way[1])),
-            pixels_per_mm(self._optics, pose),
+            px_per_mm,
         )
         draw_plane(self._canvas, self._optics, self._grid, blurred, pose)
 
     def _label_texture(self, view: CameraView) -> PlaneTexture:
-        """The label at about two texels per pixel, each texel inside one module."""
-        if self._label[0] != view.payload:
-            self._label = (view.payload, label_modules(view.payload))
-        modules = self._label[1]
+        """The label, finer than its blur."""
+        modules = label_modules(view.payload)
         module_mm = view.label_size_mm / modules.shape[0]
-        module_px = pixels_per_mm(self._optics, view.T_camera_label) * module_mm
-        texels = int(np.clip(np.ceil(2 * module_px), 3, _MOST_TEXELS_PER_MODULE))
+        distance_mm = max(float(view.T_camera_label[2, 3]), _NEAREST_MM)
+        module_px = self._optics.fx / distance_mm * module_mm
+        texels_per_px = 0.5 + 0.8 / self._imaging.blur_px(distance_mm, self._optics)
+        texels = int(np.clip(np.ceil(texels_per_px * module_px), 3, _MOST_TEXELS_PER_MODULE))
         reflectance = label_reflectance(
             modules, texels, self._imaging.black_reflectance, self._imaging.white_reflectance
         )
@@ -94,6 +99,9 @@ class SceneRenderer:
 
         Everything about it is smooth, so every sixteenth pixel is enough.
         """
+        if not _NEAREST_MM < T_camera_socket[2, 3] < _BODY_WITHIN_MM:
+            self._canvas.fill(_EMPTY_GARAGE_REFLECTANCE)
+            return
         toward = np.linalg.inv(T_camera_socket[:3, (0, 1, 3)])
         x, y = np.moveaxis(cv2.perspectiveTransform(self._coarse_rays, toward), -1, 0)
         shade = 0.34 + 0.05 * np.sin(x / 310 + 0.4) - 0.09 * np.tanh((y + 150) / 45)

@@ -15,6 +15,8 @@ from drivers.simulator.view import Pose
 ROWS_AT_ONCE = 64
 """Rows drawn in one go: keeps the temporary arrays small."""
 
+_ENOUGH_TEXELS = 3.0  # per standard deviation of a blur
+
 Canvas = NDArray[np.float32]
 
 
@@ -47,6 +49,9 @@ class PlaneTexture:
             px_per_mm: Scale of the picture at the plane.
         """
         sigma = sigma_px / (px_per_mm * self.texel_mm)
+        if sigma >= 3 * _ENOUGH_TEXELS:
+            coarser = self._reduced(int(sigma / _ENOUGH_TEXELS))
+            return coarser.blurred(sigma_px, motion_mm, px_per_mm)
         way = np.array(motion_mm) / self.texel_mm
         margin = int(np.ceil(3.5 * sigma + np.abs(way).max() / 2)) + 1
         layers = []
@@ -55,6 +60,25 @@ class PlaneTexture:
             smooth = cv2.GaussianBlur(padded, (0, 0), sigma, borderType=cv2.BORDER_CONSTANT)
             layers.append(_smeared(np.asarray(smooth, dtype=np.float32), way))
         return PlaneTexture(layers[0], layers[1], self.texel_mm)
+
+    def _reduced(self, factor: int) -> PlaneTexture:
+        """The same picture in texels larger by the factor, or by one less if that is even.
+
+        By an odd number, equal margins on both sides can always make the size a multiple, so
+        that the middle stays where it was.
+        """
+        factor -= 1 - factor % 2
+        margins = []
+        for size in self.alpha.shape:
+            missing = -size % factor
+            margins.append((missing if missing % 2 == 0 else missing + factor) // 2)
+        layers = []
+        for layer in (self.reflectance, self.alpha):
+            whole = np.pad(layer, [(margin, margin) for margin in margins])
+            size = (whole.shape[1] // factor, whole.shape[0] // factor)
+            reduced = cv2.resize(whole, size, interpolation=cv2.INTER_AREA)
+            layers.append(np.asarray(reduced, dtype=np.float32))
+        return PlaneTexture(layers[0], layers[1], self.texel_mm * factor)
 
 
 def draw_plane(
@@ -95,11 +119,6 @@ def draw_plane(
         below = canvas[strip.top : strip.bottom, strip.left : strip.right]
         below *= 1 - alpha
         below += reflectance
-
-
-def pixels_per_mm(optics: CameraModel, T_camera_plane: Pose) -> float:
-    """Scale of the picture at the origin of a plane."""
-    return optics.fx / max(float(T_camera_plane[2, 3]), 1.0)
 
 
 def _region(optics: CameraModel, texture: PlaneTexture, pose: Pose) -> Region | None:
