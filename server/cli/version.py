@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version as installed_version
-
 import click
+
+from server.version import VERSION
 
 
 @click.command()
 def version() -> None:
     """Print the version."""
-    click.echo(f"plugpilot {installed_version('plugpilot')}")
+    click.echo(f"plugpilot {VERSION}")

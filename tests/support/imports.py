@@ -42,15 +42,24 @@ def arrows_of(source: str, module: str, place: str) -> Iterator[Arrow]:
                 yield Arrow(module, f"{node.module}.{alias.name}", where)
 
 
+def modules_in(project: Path, rooms: tuple[str, ...]) -> dict[str, Path]:
+    """All modules in some top folders, with their files."""
+    return {
+        ".".join(file.relative_to(project).with_suffix("").parts).removesuffix(".__init__"): file
+        for room in rooms
+        for file in sorted((project / room).rglob("*.py"))
+    }
+
+
 def arrows_in(project: Path, rooms: tuple[str, ...]) -> list[Arrow]:
     """All imports in the Python files of some top folders."""
-    arrows: list[Arrow] = []
-    for room in rooms:
-        for file in sorted((project / room).rglob("*.py")):
-            path = file.relative_to(project)
-            module = ".".join(path.with_suffix("").parts).removesuffix(".__init__")
-            arrows += arrows_of(file.read_text(encoding="utf-8"), module, str(path))
-    return arrows
+    return [
+        arrow
+        for module, file in modules_in(project, rooms).items()
+        for arrow in arrows_of(
+            file.read_text(encoding="utf-8"), module, str(file.relative_to(project))
+        )
+    ]
 
 
 def within(module: str, package: str) -> bool:
