@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import datetime
 
+from drivers.simulator.garage import SimulatedGarage
 from server.config.settings import Settings
 from server.control.jog import Jog
 from server.control.supervisor import Supervisor
@@ -37,6 +38,7 @@ class Services:
         camera: Pictures for people.
         live: Pushes what changes.
         twin: The 3D picture; None where nobody can watch.
+        garage: The simulated garage behind the drivers; None with a real robot.
     """
 
     settings: Settings
@@ -52,3 +54,4 @@ class Services:
     camera: CameraFeed
     live: LiveHub
     twin: TwinHost | None
+    garage: SimulatedGarage | None

@@ -47,7 +47,7 @@ class DriveParameters(Parameters):
     encoder_counts_per_mm: Positive = 93.0
     backlash_mm: tuple[Spread, Spread, Spread] = (0.05, 0.05, 0.05)
     lag_s: Positive = Field(0.02, description="time constant of the rho3 position controller")
-    friction_n: NotNegative = Field(2.0, description="of the rho3 screw, seen by the current")
+    friction_n: NotNegative = Field(1.5, description="of the rho3 screw, seen by the current")
     force_noise_n: NotNegative = Field(0.8, description="standard deviation of a force sample")
     force_scale_std: Spread = Field(0.01, description="error of the motor's torque constant")
     max_force_n: Positive = Field(150.0, description="what the rho3 motor can do at all")
@@ -114,7 +114,7 @@ class ContactParameters(Parameters):
 
     compliance_mm: Positive = Field(1.5, description="lateral error that the chamfer takes up")
     peak_force_n: Positive = 70.0
-    peak_force_std_n: Spread = 2.0
+    peak_force_std_n: Spread = 1.5
     engagement: tuple[tuple[float, float], ...] = Field(
         (
             (0.0, 0.0),

@@ -21,7 +21,7 @@ class InsertionSettings(Section):
     pre_insertion_distance_mm: float = Field(
         20.0, ge=5, le=30, description="From plug tip to socket face when the insertion begins"
     )
-    force_limit_n: float = Field(78.0, gt=0, le=150, description="Never push harder")
+    force_limit_n: float = Field(79.0, gt=0, le=150, description="Never push harder")
     withdrawal_force_limit_n: float = Field(80.0, gt=0, le=150, description="Never pull harder")
     max_lateral_sigma_mm: float = Field(
         0.1, gt=0, le=1, description="Standard deviation of the socket's place, across the axis"

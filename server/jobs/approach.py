@@ -1,10 +1,11 @@
-"""From a measured socket to the joints of the way in."""
+"""From a measured socket to the joints of the way in, and where to wait."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from server.config.insertion import InsertionSettings
+from server.config.park import ParkSettings
 from server.control.plug_guard import Corridor
 from server.localisation.errors import SocketUnreachableError
 from server.localisation.socket_pose import SocketPose
@@ -69,3 +70,13 @@ def lateral_error_mm(geometry: RobotGeometry, at: JointPosition, socket: SocketP
     axis = np.array(geometry.insertion_axis)
     offset = np.array(gamma.forward(geometry, at)) - np.array(socket.entry)
     return float(np.linalg.norm(offset - (offset @ axis) * axis))
+
+
+def parking_joints(geometry: RobotGeometry, park: ParkSettings) -> JointPosition:
+    """Joints of the parking place.
+
+    Raises:
+        UnreachableError: the configured place is out of reach.
+    """
+    dy_mm, z_mm = gamma.tip_offset(geometry, park.rho3_mm)
+    return gamma.inverse(geometry, TipPosition(park.x_mm, park.y_mm + dy_mm, z_mm))

@@ -29,19 +29,24 @@ class LiveHub:
     """Knows the newest value of every section.
 
     Args:
-        builders: Makes each section's value when it is needed.
         period_s: Shortest time between two pushes of changes that are not urgent, in event loop
             time.
     """
 
-    def __init__(self, builders: Mapping[str, Build], period_s: float) -> None:
-        self._builders = builders
+    def __init__(self, period_s: float) -> None:
         self._period_s = period_s
-        self._sections = {name: _Section(0, b"null") for name in builders}
-        self._dirty: set[str] = set(builders)
+        self._builders: dict[str, Build] = {}
+        self._sections: dict[str, _Section] = {}
+        self._dirty: set[str] = set()
         self._watchers: set[asyncio.Event] = set()
         self._timer: asyncio.TimerHandle | None = None
         self._last_push_s = 0.0
+
+    def add(self, section: str, build: Build) -> None:
+        """Add a section; ``build`` makes its value when it is needed."""
+        self._builders[section] = build
+        self._sections[section] = _Section(0, b"null")
+        self._dirty.add(section)
 
     @property
     def watchers(self) -> int:

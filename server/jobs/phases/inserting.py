@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 
-from drivers.robot import RobotState
 from server.control.errors import ForceLimitError, RobotFaultError
+from server.control.force_watch import ForceWatch
 from server.jobs.approach import corridor, lateral_error_mm
 from server.jobs.context import JobContext
 from server.jobs.errors import InsertionDepthError, InsertionJammedError
@@ -32,15 +32,15 @@ async def run(job: JobContext) -> None:
     await supervisor.plug.about_to_enter(way)
     seated = at._replace(rho3_mm=way.depth_rho3_mm)
     plan = plan_straight_line(geometry, supervisor.limits, at, gamma.forward(geometry, seated))
-    forces = _ForceWatch(settings.force_limit_n)
+    forces = ForceWatch(push_limit_n=settings.force_limit_n)
     try:
-        await supervisor.follow(job.lease, plan, forces.watch)
+        await supervisor.follow(job.lease, plan, forces.check)
     except (ForceLimitError, RobotFaultError) as error:
         depth_mm = supervisor.telemetry.require().measured.position.rho3_mm - way.face_rho3_mm
         raise InsertionJammedError(
             f"{error.detail} The plug was {depth_mm:.1f} mm deep of {settings.depth_mm:.0f} mm.",
             depth_mm=round(depth_mm, 2),
-            max_force_n=round(forces.largest_n, 1),
+            max_force_n=round(forces.largest_push_n, 1),
         ) from error
     plugged_after_s = asyncio.get_running_loop().time() - job.accepted_at_s
     depth_mm = supervisor.telemetry.require().measured.position.rho3_mm - way.face_rho3_mm
@@ -52,7 +52,7 @@ async def run(job: JobContext) -> None:
         f"The plug is {depth_mm:.1f} mm deep.",
         insertion_depth_mm=round(depth_mm, 3),
         lateral_error_mm=round(axis_error_mm, 4),
-        max_force_n=round(forces.largest_n, 1),
+        max_force_n=round(forces.largest_push_n, 1),
         plugged_after_s=round(plugged_after_s, 3),
         limit_duration_s=round(limit_s, 3),
     )
@@ -61,20 +61,3 @@ async def run(job: JobContext) -> None:
             f"The plug is {depth_mm:.1f} mm deep instead of {settings.depth_mm:.0f} mm.",
             depth_mm=round(depth_mm, 2),
         )
-
-
-class _ForceWatch:
-    """Remembers the largest force and stops the motion above the limit."""
-
-    def __init__(self, limit_n: float) -> None:
-        self.largest_n = 0.0
-        self._limit_n = limit_n
-
-    def watch(self, state: RobotState) -> None:
-        self.largest_n = max(self.largest_n, state.force_n)
-        if state.force_n > self._limit_n:
-            raise ForceLimitError(
-                f"The force reached {state.force_n:.0f} N; the limit is {self._limit_n:.0f} N.",
-                force_n=round(state.force_n, 1),
-                limit_n=self._limit_n,
-            )

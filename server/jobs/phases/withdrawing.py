@@ -7,6 +7,7 @@ import asyncio
 from drivers.robot import RobotState
 from drivers.station import StationDriver, StationError
 from server.control.errors import ForceLimitError, RobotFaultError
+from server.control.force_watch import ForceWatch
 from server.control.plug_guard import Corridor
 from server.jobs.context import JobContext
 from server.jobs.errors import StationUnsafeError, StillLockedError, StillUnderLoadError
@@ -39,13 +40,15 @@ async def run(job: JobContext) -> None:
         else:
             await _withdraw(job, corridor, guard)
     except (ForceLimitError, RobotFaultError) as error:
-        raise StillLockedError(error.detail, max_pull_n=round(guard.largest_pull_n, 1)) from error
+        raise StillLockedError(
+            error.detail, max_pull_n=round(guard.forces.largest_pull_n, 1)
+        ) from error
     finally:
         watching.cancel()
         await asyncio.gather(watching, return_exceptions=True)
     await supervisor.plug.is_free()
     await job.journal.note(
-        "withdrawn", "The plug is out.", max_pull_n=round(guard.largest_pull_n, 1)
+        "withdrawn", "The plug is out.", max_pull_n=round(guard.forces.largest_pull_n, 1)
     )
 
 
@@ -81,8 +84,7 @@ class _Guard:
     """Stops the withdrawal on force, load or a silent station."""
 
     def __init__(self, limit_n: float) -> None:
-        self.largest_pull_n = 0.0
-        self._limit_n = limit_n
+        self.forces = ForceWatch(pull_limit_n=limit_n)
         self.alarmed = asyncio.Event()
         self._alarm: Exception | None = None
 
@@ -92,13 +94,7 @@ class _Guard:
 
     def check(self, state: RobotState) -> None:
         self.raise_alarm()
-        self.largest_pull_n = max(self.largest_pull_n, -state.force_n)
-        if -state.force_n > self._limit_n:
-            raise ForceLimitError(
-                f"Pulling took {-state.force_n:.0f} N; the limit is {self._limit_n:.0f} N.",
-                force_n=round(state.force_n, 1),
-                limit_n=self._limit_n,
-            )
+        self.forces.check(state)
 
     async def watch_station(self, station: StationDriver) -> None:
         loop = asyncio.get_running_loop()

@@ -1,0 +1,122 @@
+"""Which drivers there are. A new one is a line in a table here, and a name in the configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeVar
+
+from drivers.camera import CameraDriver, CameraModel
+from drivers.errors import UnknownDriverError
+from drivers.robot import RobotDriver
+from drivers.simulator.garage import SimulatedGarage, build_garage
+from drivers.simulator.parameters import SimulationParameters
+from drivers.station import StationDriver
+from twin.camera_mount import CameraMount
+from twin.geometry import RobotGeometry
+from twin.motion import MotionLimits
+
+D = TypeVar("D")
+
+
+@dataclass(frozen=True)
+class DeviceRequest:
+    """What the drivers need to know.
+
+    Attributes:
+        robot: Name of the robot driver.
+        camera: Name of the camera driver.
+        station: Name of the station driver.
+        port: Serial port of the motion board, "auto" to look for it.
+        geometry: Calibrated geometry of the robot.
+        limits: How fast its joints may move.
+        mount: Where the camera sits.
+        optics: Calibrated model of the camera.
+        simulation: Numbers of the simulated garage.
+        seed: Decides everything random in it.
+    """
+
+    robot: str
+    camera: str
+    station: str
+    port: str
+    geometry: RobotGeometry
+    limits: MotionLimits
+    mount: CameraMount
+    optics: CameraModel
+    simulation: SimulationParameters
+    seed: int
+
+    @property
+    def simulated(self) -> bool:
+        """No real robot moves."""
+        return self.robot == SIMULATOR
+
+    @cached_property
+    def garage(self) -> SimulatedGarage:
+        """The one simulated garage that all simulated devices share."""
+        return build_garage(
+            self.geometry,
+            self.limits,
+            self.mount,
+            self.optics,
+            parameters=self.simulation,
+            seed=self.seed,
+        )
+
+
+SIMULATOR = "simulator"
+
+ROBOTS: Mapping[str, Callable[[DeviceRequest], RobotDriver]] = {
+    SIMULATOR: lambda request: request.garage.robot,
+}
+CAMERAS: Mapping[str, Callable[[DeviceRequest], CameraDriver]] = {
+    SIMULATOR: lambda request: request.garage.camera,
+}
+STATIONS: Mapping[str, Callable[[DeviceRequest], StationDriver]] = {
+    SIMULATOR: lambda request: request.garage.station,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Devices:
+    """The drivers in use.
+
+    Attributes:
+        robot: The motion board.
+        camera: The camera on the platform.
+        station: The charging station.
+        garage: The simulated garage behind them; None without a simulated robot.
+    """
+
+    robot: RobotDriver
+    camera: CameraDriver
+    station: StationDriver
+    garage: SimulatedGarage | None
+
+
+def make_devices(request: DeviceRequest) -> Devices:
+    """Make the drivers that are asked for; nothing is opened yet.
+
+    Raises:
+        UnknownDriverError: there is no driver of one of the names.
+    """
+    return Devices(
+        robot=_choose(ROBOTS, "robot", request.robot)(request),
+        camera=_choose(CAMERAS, "camera", request.camera)(request),
+        station=_choose(STATIONS, "station", request.station)(request),
+        garage=request.garage if request.simulated else None,
+    )
+
+
+def _choose(
+    known: Mapping[str, Callable[[DeviceRequest], D]], kind: str, name: str
+) -> Callable[[DeviceRequest], D]:
+    try:
+        return known[name]
+    except KeyError:
+        names = ", ".join(sorted(known))
+        raise UnknownDriverError(
+            f"There is no {kind} driver {name!r} in this version; there is: {names}."
+        ) from None

@@ -1,0 +1,105 @@
+"""`plugpilot simulate`: jobs in virtual time, without pages."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from server.config import Option, load_settings
+from server.config.settings import Settings
+from server.jobs.model import JobType
+
+_config = click.option(
+    "--config",
+    type=click.Path(path_type=Path),
+    help="Configuration file.  [default: $PLUGPILOT_CONFIG, else ./plugpilot.toml if there is one]",
+)
+_type = click.option(
+    "--type",
+    "job_type",
+    type=click.Choice([JobType.PLUG_IN.value, JobType.CHARGE.value]),
+    default=JobType.PLUG_IN.value,
+    show_default=True,
+    help="What to do.",
+)
+_energy = click.option(
+    "--energy-wh",
+    type=click.FloatRange(min=0, min_open=True, max=200_000),
+    help="Charge: stop after this much energy.  [until the car is full]",
+)
+_json = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
+
+
+@click.group()
+def simulate() -> None:
+    """Run jobs on the simulator in virtual time, as fast as they can be computed."""
+
+
+@simulate.command()
+@click.option("--seed", help="Chance of the simulated world.  [simulation.seed, 0]")
+@_type
+@_energy
+@_json
+@_config
+def job(
+    *, seed: str | None, job_type: str, energy_wh: float | None, as_json: bool, config: Path | None
+) -> None:
+    """Run one job; exit status 1 when it did not succeed."""
+    settings = load_settings(config, [Option("--seed", "simulation.seed", seed)])
+    # imported late: wrong settings are told without waiting for vision to load
+    from server.api.schema.jobs import JobRequest  # noqa: PLC0415
+    from server.cli.simulated_job import as_document, as_table  # noqa: PLC0415
+    from server.simulation import simulate as run  # noqa: PLC0415
+
+    request = JobRequest(type=JobType(job_type), target_energy_wh=energy_wh)
+    outcome = run(settings, request)
+    click.echo(as_document(outcome) if as_json else as_table(outcome))
+    if not outcome.succeeded:
+        raise SystemExit(1)
+
+
+@simulate.command()
+@click.option("--seeds", default="0-99", show_default=True, help="First and last seed.")
+@_type
+@_energy
+@_json
+@_config
+def campaign(
+    *, seeds: str, job_type: str, energy_wh: float | None, as_json: bool, config: Path | None
+) -> None:
+    """Run one job for each of many seeds; exit status 1 when one did not succeed."""
+    numbers = _seeds(seeds)
+    settings = load_settings(config, [])
+    from server.api.schema.jobs import JobRequest  # noqa: PLC0415
+    from server.cli.simulated_job import as_document, as_line, as_summary  # noqa: PLC0415
+    from server.simulation import simulate as run  # noqa: PLC0415
+
+    request = JobRequest(type=JobType(job_type), target_energy_wh=energy_wh)
+    outcomes = []
+    for seed in numbers:
+        outcome = run(_with_seed(settings, seed), request)
+        outcomes.append(outcome)
+        click.echo(as_document(outcome) if as_json else as_line(outcome))
+    if not as_json:
+        click.echo(as_summary(outcomes))
+    if not all(outcome.succeeded for outcome in outcomes):
+        raise SystemExit(1)
+
+
+def _seeds(text: str) -> range:
+    first, _, last = text.partition("-")
+    try:
+        numbers = range(int(first), int(last or first) + 1)
+    except ValueError:
+        numbers = range(0)
+    if not numbers:
+        raise click.BadParameter(
+            f"{text!r} is not a range of seeds such as 0-99.", param_hint="--seeds"
+        )
+    return numbers
+
+
+def _with_seed(settings: Settings, seed: int) -> Settings:
+    simulation = settings.simulation.model_copy(update={"seed": seed})
+    return settings.model_copy(update={"simulation": simulation})

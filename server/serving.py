@@ -1,0 +1,147 @@
+"""Runs the server until it is told to stop."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import gc
+import logging
+import math
+import socket
+import sys
+from collections.abc import Callable
+
+import uvicorn
+
+from server.api.app import create_app
+from server.composition import running
+from server.config.errors import ConfigurationError
+from server.config.settings import Settings
+from server.timing import ScaledTimeLoop
+from twin.scene import TwinHost
+
+SEND_BUFFER_BYTES = 32 * 1024
+"""Small, so that a slow phone is fed the newest state instead of seconds of old ones."""
+
+KEEP_ALIVE_S = 5
+PING_S = 20
+PING_TIMEOUT_S = 30
+SHUTDOWN_S = 2
+MAX_MESSAGE_BYTES = 1 << 20
+
+
+class PortInUseError(ConfigurationError):
+    """Another program listens on the port."""
+
+    code = "port_in_use"
+    title = "The port is in use"
+    remedy = "Stop the other program, or choose another port: --port 8001."
+
+
+class AddressError(ConfigurationError):
+    """The address cannot be listened on."""
+
+    code = "address"
+    title = "The address cannot be listened on"
+    remedy = "Choose another address or port: --host 127.0.0.1 --port 8000."
+
+
+def serve(settings: Settings) -> None:
+    """Run the server; returns when it was interrupted.
+
+    Raises:
+        ConfigurationError, StorageError: it cannot start like this.
+    """
+    logging.basicConfig(
+        level=settings.logging.level.upper(),
+        format="%(asctime)s %(levelname)s %(name)s: %(message)s",
+        stream=sys.stderr,
+    )
+    listener = _listen(settings.server.host, settings.server.port)
+    speed = settings.simulation.speed
+    factory = None if speed == 1 else lambda: ScaledTimeLoop(speed)
+    with contextlib.closing(listener), asyncio.Runner(loop_factory=factory) as runner:
+        runner.run(_serve(settings, listener))
+
+
+async def _serve(settings: Settings, listener: socket.socket) -> None:
+    optics = settings.camera.optics
+    twin = TwinHost(
+        settings.geometry,
+        settings.camera.mount,
+        hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
+        aspect=optics.width / optics.height,
+    )
+    async with running(settings, folder=settings.storage.data_dir, twin=twin) as services:
+        app = create_app(lambda: contextlib.nullcontext(services), twin)
+        config = _uvicorn_config(app, settings.simulation.speed)
+        server = _Server(config, _address(listener), when_ready=twin.start)
+        try:
+            await server.serve(sockets=[listener])
+        finally:
+            await asyncio.to_thread(twin.stop)
+
+
+class _Server(uvicorn.Server):
+    """Says in one line where it is, once a browser can come."""
+
+    def __init__(
+        self, config: uvicorn.Config, address: str, when_ready: Callable[[], None]
+    ) -> None:
+        super().__init__(config)
+        self._address = address
+        self._when_ready = when_ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            # What was made while starting lives as long as the process: no need to look at it
+            # again at every collection.
+            gc.collect()
+            gc.freeze()
+            print(f"PlugPilot is ready: {self._address}", flush=True)
+            self._when_ready()
+
+
+def _uvicorn_config(app: object, speed: float) -> uvicorn.Config:
+    """Time limits in the loop's time, which may run faster than the wall clock."""
+    return uvicorn.Config(
+        app,  # type: ignore[arg-type]
+        loop="none",
+        log_config=None,
+        access_log=False,
+        ws="websockets-sansio",
+        ws_per_message_deflate=False,
+        ws_max_size=MAX_MESSAGE_BYTES,
+        ws_ping_interval=PING_S * speed,
+        ws_ping_timeout=PING_TIMEOUT_S * speed,
+        timeout_keep_alive=math.ceil(KEEP_ALIVE_S * speed),
+        timeout_graceful_shutdown=math.ceil(SHUTDOWN_S * speed),
+        server_header=False,
+    )
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+    except OSError as error:
+        raise AddressError(f"{host!r} is not an address of this machine: {error}.") from error
+    listener = socket.socket(family, kind, protocol)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+    try:
+        listener.bind(address)
+    except OSError as error:
+        listener.close()
+        if error.errno == errno.EADDRINUSE:
+            raise PortInUseError(f"Another program listens on {host} port {port}.") from error
+        raise AddressError(f"Cannot listen on {host} port {port}: {error.strerror}.") from error
+    return listener
+
+
+def _address(listener: socket.socket) -> str:
+    host, port = listener.getsockname()[:2]
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
