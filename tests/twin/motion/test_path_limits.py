@@ -3,7 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
+from tests.twin.motion.bounds import SLACK, limit_arrays
 from tests.twin.strategies import between, default_tips
 from twin.geometry import RobotGeometry
 from twin.joints import TipPosition
@@ -59,3 +61,26 @@ def test_the_derivatives_on_the_line_are_slopes_and_never_exceed_their_bound(
         )
         if line.length_mm > 2 * step:
             assert np.all(np.abs(here) <= np.array(largest) + 1e-15)
+
+
+Triple = tuple[float, float, float]
+
+
+@given(
+    st.tuples(between(0.01, 2), between(0.01, 2), between(0.01, 2)),
+    st.tuples(between(0, 0.02), between(0, 0.02), between(0, 0.02)),
+    st.tuples(between(0, 1e-4), between(0, 1e-4), between(0, 1e-4)),
+    between(0.01, 500),
+)
+def test_no_joint_can_exceed_its_limits_anywhere_on_the_path(
+    slope: Triple, curve: Triple, twist: Triple, length: float
+) -> None:
+    """The chain rule with every derivative at its largest at once."""
+    derivatives = PathDerivatives(slope, curve, twist)
+    v, a, j = path_limits(LIMITS, derivatives, length)
+    first, second, third = np.array(derivatives)
+    velocity, acceleration, jerk = limit_arrays(LIMITS)
+    assert np.all(first * v <= velocity * SLACK)
+    assert np.all(first * a + second * v**2 <= acceleration * SLACK)
+    assert np.all(first * j + 3 * second * v * a + third * v**3 <= jerk * SLACK)
+    assert min(v, a, j) > 0
