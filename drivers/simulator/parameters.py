@@ -26,13 +26,16 @@ class Parameters(BaseModel):
 
 
 class BuildErrors(Parameters):
-    """Standard deviations of how the built machine differs from its drawing."""
+    """Standard deviations of how the built machine differs from what is known of it.
 
-    length_std_mm: Spread = Field(0.15, description="each of L, L2, L3, e1, e2, e3")
+    The defaults are what a calibration leaves over, not what a drill and a printer leave.
+    """
+
+    length_std_mm: Spread = Field(0.1, description="each of L, L2, L3, e1, e2, e3")
     theta_std_rad: Spread = math.radians(0.05)
     mount_offset_std_mm: Spread = Field(0.05, description="camera on the platform, each axis")
-    mount_angle_std_rad: Spread = math.radians(0.02)
-    principal_point_std_px: Spread = 0.3
+    mount_angle_std_rad: Spread = math.radians(0.008)
+    principal_point_std_px: Spread = 0.2
     focal_std_fraction: Spread = 2e-4
     sag_scale: NotNegative = Field(1.0, description="of the measured deflection under self-weight")
 
@@ -136,7 +139,7 @@ class ContactParameters(Parameters):
     stop_depth_mm: Positive = 40.5
     stop_stiffness_n_mm: Positive = 400.0
     friction_stiffness_n_mm: Positive = Field(200.0, description="of the contacts before they slip")
-    misalignment_friction_n_mm: NotNegative = Field(6.0, description="per mm off the socket's axis")
+    misalignment_friction_n_mm: NotNegative = Field(3.0, description="per mm off the socket's axis")
     jam_stiffness_n_mm: Positive = 150.0
     lock_stiffness_n_mm: Positive = 150.0
     pilot_makes_mm: Positive = Field(38.5, description="the pilot contact closes at this depth")
