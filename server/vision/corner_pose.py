@@ -36,7 +36,8 @@ def corner_pose(camera: CameraModel, code: Code, label_size_mm: float) -> LabelP
     best = starts[0]
     by_pose = project(camera, best.T_camera_label, corners_mm(label_size_mm)).by_pose
     design = by_pose.reshape(8, 6)
-    sigma = max(CORNER_SIGMA_PX, best.corner_rms_px)
+    # Eight numbers measured, six fitted: two are left to tell the error of one.
+    sigma = max(CORNER_SIGMA_PX, best.corner_rms_px * np.sqrt(2))
     covariance = np.asarray(sigma**2 * np.linalg.inv(design.T @ design), dtype=np.float64)
     # The other pose explains the corners nearly as well: the tilt may be the opposite one.
     for other in starts[1:]:

@@ -24,6 +24,7 @@ _TUKEY = 4.685  # 95% efficient for normal residuals (Beaton and Tukey 1974)
 _LEAST_CONTRAST = 0.2  # of the median contrast; below it an edge says nothing
 _SMALLEST_SCALE_PX = 0.01
 _CONVERGED_PX = 2e-3
+_SETTLED_PX = 0.05  # perfectly sharp edges keep a fit swinging a little
 _NARROW_BELOW_PX = 0.2
 _NARROW_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
@@ -77,6 +78,7 @@ def fit_edges(
     # Without a first guess of the spread all edges of a well predicted pose would be outliers.
     first = edge_offsets(image, camera, edges, pose, inverted=inverted)
     spread = float(np.median(first.offset_px))
+    moved_px = np.inf
     for _ in range(MOST_ITERATIONS):
         measured = edge_offsets(
             image, camera, edges, pose, inverted=inverted, spread_px=spread, reach_px=reach_px
@@ -92,7 +94,7 @@ def fit_edges(
             break
         if moved_px < _NARROW_BELOW_PX and reach_px == MOST_REACH_PX:
             reach_px = max(_NARROW_WIDTHS * measured.width_px, _LEAST_REACH_PX)
-    else:
+    if moved_px > _SETTLED_PX:
         return None
     covariance = system.covariance()
     covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2

@@ -69,7 +69,9 @@ def edge_offsets(
 
     half_module = np.abs(across) * edges.module_mm * REACH_MODULES
     reach = np.clip(half_module - abs(spread_px), 1.0, reach_px)
-    half_steps = int(np.ceil(np.max(reach, initial=2.0)))
+    longest = float(np.max(reach, initial=2.0))
+    # Steps of a pixel, but of half a pixel across the short profiles of sharp edges.
+    half_steps = int(np.ceil(max(longest, min(2 * longest, 6.0))))
     steps = np.arange(-half_steps, half_steps + 1) / half_steps
     sideways = np.array(_SIDEWAYS_MODULES) * edges.module_mm
     middle = seen.pixels + normal * spread_px

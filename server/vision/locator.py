@@ -37,14 +37,16 @@ class Gates:
     """Limits beyond which a fit is rejected.
 
     Attributes:
-        rms_modules: Largest root mean square edge distance, in modules.
+        rms_modules: Largest root mean square edge distance, in modules ...
+        rms_px: ... or in pixels, whichever is more: small codes are drawn by few pixels.
         inlier_share: Smallest share of edges that agree.
         bit_agreement: Smallest share of modules that look as the code says.
         tracked_fits: A predicted pose saves the decoding at most so often in a row; then the
             code is read again, because a slipped fit can pass for a right one.
     """
 
-    rms_modules: float = 0.12
+    rms_modules: float = 0.06
+    rms_px: float = 0.35
     inlier_share: float = 0.6
     bit_agreement: float = 0.85
     tracked_fits: int = 10
@@ -94,6 +96,7 @@ class Locator:
             WrongPayloadError: there are codes, but not the expected one.
             PoseRejectedError: the fit failed a gate (MirroredCodeError for a mirrored code).
         """
+        _check_arguments(image, label_size_mm)
         self._check_size(image)
         if predicted is not None:
             tracked = self._track(image, label_size_mm, expected_payload, predicted)
@@ -214,9 +217,9 @@ class Locator:
         if not np.all(inside):
             return "the label is partly outside the picture"
         side = float(np.mean(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)))
-        rms_modules = fit.rms_px * modules.shape[0] / side
-        if rms_modules > gates.rms_modules:
-            return f"edges are {rms_modules:.2f} modules off (at most {gates.rms_modules:g})"
+        most_px = max(gates.rms_px, gates.rms_modules * side / modules.shape[0])
+        if fit.rms_px > most_px:
+            return f"its edges are {fit.rms_px:.2f} px off, at most {most_px:.2f} px are allowed"
         if fit.inlier_share < gates.inlier_share:
             return f"only {fit.inlier_share:.0%} of the edges agree with it"
         agreement = bit_agreement(image, self._camera, modules, pose, label_size_mm)
@@ -227,7 +230,7 @@ class Locator:
 
     def _check_size(self, image: Image) -> None:
         expected = (self._camera.height, self._camera.width)
-        if image.ndim == 2 and image.shape != expected:
+        if image.shape != expected:
             detail = (
                 f"The picture is {image.shape[1]} x {image.shape[0]} px, but the camera model is "
                 f"for {expected[1]} x {expected[0]} px."

@@ -33,23 +33,21 @@ def corners_mm(label_size_mm: float) -> Array:
 def start_poses(
     camera: CameraModel, corners_px: NDArray[np.float64], label_size_mm: float
 ) -> list[StartPose]:
-    """Solve the square (IPPE, Collins and Bartoli 2014), best pose first.
+    """Solve for the plane (IPPE, Collins and Bartoli 2014), best pose first.
 
     Four corners leave two poses, which differ in the sign of the tilt. Poses behind the camera
     are left out; the list is empty for corners that no label in front of it can give.
     """
     rays = undistort(camera, corners_px)
     model = corners_mm(label_size_mm)
-    # IPPE_SQUARE wants y up and the order top left, top right, bottom right, bottom left.
-    upright = model * np.array([1.0, -1.0, 1.0])
+    # Not IPPE_SQUARE: OpenCV 5.0 loses the right solution of a label that is exactly head-on.
     count, turns, shifts, _ = cv2.solvePnPGeneric(
-        upright, rays, np.eye(3), None, flags=cv2.SOLVEPNP_IPPE_SQUARE
+        model, rays, np.eye(3), None, flags=cv2.SOLVEPNP_IPPE
     )
     found = []
     for turn, shift in zip(turns[:count], shifts[:count], strict=True):
         pose = np.eye(4)
-        # Columns y and z change sign: from y up, z to the camera to y down, z into the car.
-        pose[:3, :3] = np.asarray(cv2.Rodrigues(turn)[0]) @ np.diag([1.0, -1.0, -1.0])
+        pose[:3, :3] = cv2.Rodrigues(turn)[0]
         pose[:3, 3] = np.asarray(shift).ravel()
         if not np.all(np.isfinite(pose)):
             continue

@@ -1,0 +1,49 @@
+"""Edges of a module matrix."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from server.vision.code_edges import MOST_EDGES, code_edges
+from twin.qr_label import label_modules
+
+
+def test_a_single_black_module_has_four_edges_that_point_outwards() -> None:
+    modules = np.zeros((3, 3), dtype=np.bool_)
+    modules[0, 2] = True  # top right: x in 10..30, y in -30..-10
+    edges = code_edges(modules, 60.0)
+    assert edges.module_mm == 20.0
+    found = {(tuple(p), tuple(n)) for p, n in zip(edges.points_mm, edges.normals, strict=True)}
+    assert found == {
+        ((10.0, -20.0), (-1.0, 0.0)),
+        ((30.0, -20.0), (1.0, 0.0)),
+        ((20.0, -30.0), (0.0, -1.0)),
+        ((20.0, -10.0), (0.0, 1.0)),
+    }
+
+
+def test_edges_lie_between_black_and_white_and_point_to_the_white() -> None:
+    modules = label_modules("PLUGPILOT:1:7F3K22Q9")
+    count = len(modules)
+    edges = code_edges(modules, float(count))  # one module is one millimetre
+
+    def is_black(places: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> list[bool]:
+        cells = np.floor(places + count / 2).astype(int)
+        return [bool(np.pad(modules, 1)[y + 1, x + 1]) for x, y in cells]
+
+    assert all(is_black(edges.points_mm - 0.5 * edges.normals))
+    assert not any(is_black(edges.points_mm + 0.5 * edges.normals))
+    framed = np.pad(modules, 1)
+    changes = np.count_nonzero(framed[:, 1:] != framed[:, :-1])
+    changes += np.count_nonzero(framed[1:] != framed[:-1])
+    assert len(edges.points_mm) == changes
+
+
+def test_large_codes_are_thinned_evenly() -> None:
+    modules = label_modules("x" * 400)
+    edges = code_edges(modules, 60.0)
+    assert len(edges.points_mm) == MOST_EDGES
+    for axis in (0, 1):
+        kept = edges.points_mm[edges.normals[:, axis] != 0]
+        assert len(kept) > MOST_EDGES / 3
+        assert np.abs(kept.mean(axis=0)).max() < 3.0
