@@ -229,7 +229,7 @@ class SimulatedBoard:
             if closed
         ]
         error_mm = self.world.line.at(now_s).position.rho3_mm - state.motors.rho3_mm
-        if pressed and self.state is not BoardState.HOMING:
+        if pressed and self.homed:
             code = FaultCode.LIMIT_SWITCH
             detail = f"The limit switch of {' and '.join(pressed)} opened."
         elif self.state is BoardState.RUN and self.world.line.ran_empty(now_s):

@@ -24,7 +24,7 @@ TOWARDS_SWITCH = ((-1.0, 1.0, 0.0), (1.0, -1.0, 0.0), (0.0, 0.0, -1.0))
 """Directions in which each joint seeks its switch."""
 
 BEYOND_TRAVEL_MM = 20.0
-"""A switch that far behind the start of the stroke is missing."""
+"""Room for wrong stored positions: a switch further beyond the stroke than this is missing."""
 
 
 def trapezoid(
@@ -98,12 +98,8 @@ class HomingRoutine:
         travel = self._world.geometry.joint_ranges[joint]
         furthest_mm = travel.stroke_mm + BEYOND_TRAVEL_MM
         await self._find_switch(joint, direction, furthest_mm, self._speed(joint))
-        back = (-direction[0], -direction[1], -direction[2])
-        self._start(back, numbers.back_off_mm, self._speed(joint))
-        await self._until(self._at_rest)
-        if self._pressed(joint):
-            self._fail(f"The limit switch of {JOINTS[joint]} does not open; look for a cut wire.")
-        furthest_mm = 2 * numbers.back_off_mm + numbers.switch_margin_mm
+        await self._leave_switch(joint, direction)
+        furthest_mm = BEYOND_TRAVEL_MM + numbers.back_off_mm
         await self._find_switch(joint, direction, furthest_mm, numbers.locate_speed_mm_s)
         now_s = self._now()
         error_mm = float(self._world.streams.homing.normal(0.0, numbers.repeatability_std_mm))
@@ -125,13 +121,25 @@ class HomingRoutine:
         self._world.line.brake(self._now())
         await self._until(self._at_rest)
 
+    async def _leave_switch(self, joint: int, direction: tuple[float, float, float]) -> None:
+        """Go back until the switch opens, and a little further."""
+        back = (-direction[0], -direction[1], -direction[2])
+        self._start(back, BEYOND_TRAVEL_MM, self._speed(joint))
+        await self._until(lambda: not self._pressed(joint) or self._at_rest())
+        if self._pressed(joint):
+            self._fail(f"The limit switch of {JOINTS[joint]} does not open; look for a cut wire.")
+        self._world.line.brake(self._now())
+        await self._until(self._at_rest)
+        self._start(back, self._numbers.back_off_mm, self._speed(joint))
+        await self._until(self._at_rest)
+
     async def _choose_height(self) -> None:
-        """Bring rho1 + rho2 to the chosen sum without moving along the rail."""
+        """Bring rho1 + rho2 to the chosen sum, along the rail no further than necessary."""
         here = self._here()
-        each_mm = 0.5 * (self._numbers.carriage_sum_mm - here.rho1_mm - here.rho2_mm)
-        await self._go_to(
-            here._replace(rho1_mm=here.rho1_mm + each_mm, rho2_mm=here.rho2_mm + each_mm)
-        )
+        total_mm = self._numbers.carriage_sum_mm
+        rho1_mm = 0.5 * (total_mm + here.rho1_mm - here.rho2_mm)
+        rho1_mm = min(max(rho1_mm, BEYOND_TRAVEL_MM), total_mm - BEYOND_TRAVEL_MM)
+        await self._go_to(here._replace(rho1_mm=rho1_mm, rho2_mm=total_mm - rho1_mm))
 
     async def _go_to(self, target: JointPosition) -> None:
         """A straight line in joint space, as fast as its slowest joint allows."""
