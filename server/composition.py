@@ -14,8 +14,6 @@ from drivers.errors import UnknownDriverError
 from drivers.registry import DeviceRequest, Devices, make_devices
 from drivers.simulator.car import ParkedCar
 from drivers.station import StationError
-from server.api.schema.live import Service
-from server.api.schema.vehicles import SocketOffset, VehicleSettings
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
 from server.control.jog import DEAD_MAN_S, Jog
@@ -27,6 +25,8 @@ from server.live.station_watch import StationWatch
 from server.live.twin_feed import feed_twin
 from server.live.views import robot_view, station_view
 from server.localisation.eye import Eye
+from server.schema.live import Service
+from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
 from server.storage.database import Database
 from server.storage.jobs import JobStore

@@ -58,6 +58,8 @@ def serve(settings: Settings) -> None:
         format="%(asctime)s %(levelname)s %(name)s: %(message)s",
         stream=sys.stderr,
     )
+    for chatty in ("uvicorn", "websockets"):
+        logging.getLogger(chatty).setLevel(logging.WARNING)
     listener = _listen(settings.server.host, settings.server.port)
     speed = settings.simulation.speed
     factory = None if speed == 1 else lambda: ScaledTimeLoop(speed)

@@ -6,11 +6,11 @@ import asyncio
 import time
 from dataclasses import dataclass
 
-from server.api.schema.jobs import Job, JobEvent, JobRequest
 from server.composition import running
 from server.config.settings import Settings
 from server.jobs.approach import parking_joints
 from server.jobs.model import JobState
+from server.schema.jobs import Job, JobEvent, JobRequest
 from server.services import Services
 from server.timing import VirtualTimeLoop
 

@@ -7,8 +7,8 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic import TypeAdapter
 
-from server.api.schema.live import ClientMessage, ServerMessage
-from server.api.schema.problem import Problem
+from server.schema.live import ClientMessage, ServerMessage
+from server.schema.problem import Problem
 
 REF_TEMPLATE = "#/components/schemas/{model}"
 

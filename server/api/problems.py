@@ -12,26 +12,12 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 
 from server.api.errors import InvalidRequestError, MalformedJsonError, MethodError, NotFoundError
-from server.api.schema.problem import Problem
 from server.errors import InternalError, PlugPilotError
+from server.schema.problem import problem_from
 
 _log = logging.getLogger(__name__)
 
-TYPE_PREFIX = "urn:plugpilot:problem:"
 MEDIA_TYPE = "application/problem+json"
-
-
-def problem_from(error: PlugPilotError) -> Problem:
-    """The problem document of an error."""
-    return Problem(
-        type=TYPE_PREFIX + error.code,
-        title=error.title,
-        status=error.status,
-        code=error.code,
-        detail=error.detail,
-        remedy=error.remedy,
-        context=error.context,
-    )
 
 
 def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:

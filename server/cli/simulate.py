@@ -48,8 +48,8 @@ def job(
     """Run one job; exit status 1 when it did not succeed."""
     settings = load_settings(config, [Option("--seed", "simulation.seed", seed)])
     # imported late: wrong settings are told without waiting for vision to load
-    from server.api.schema.jobs import JobRequest  # noqa: PLC0415
     from server.cli.simulated_job import as_document, as_table  # noqa: PLC0415
+    from server.schema.jobs import JobRequest  # noqa: PLC0415
     from server.simulation import simulate as run  # noqa: PLC0415
 
     request = JobRequest(type=JobType(job_type), target_energy_wh=energy_wh)
@@ -71,8 +71,8 @@ def campaign(
     """Run one job for each of many seeds; exit status 1 when one did not succeed."""
     numbers = _seeds(seeds)
     settings = load_settings(config, [])
-    from server.api.schema.jobs import JobRequest  # noqa: PLC0415
     from server.cli.simulated_job import as_document, as_line, as_summary  # noqa: PLC0415
+    from server.schema.jobs import JobRequest  # noqa: PLC0415
     from server.simulation import simulate as run  # noqa: PLC0415
 
     request = JobRequest(type=JobType(job_type), target_energy_wh=energy_wh)

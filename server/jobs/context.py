@@ -7,13 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from drivers.station import StationDriver
-from server.api.schema.vehicles import Vehicle
 from server.config.settings import Settings
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
 from server.jobs.journal import Journal
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
+from server.schema.vehicles import Vehicle
 from twin.joints import JointPosition
 
 

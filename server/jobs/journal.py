@@ -7,10 +7,10 @@ import logging
 from collections.abc import Callable
 from typing import Any
 
-from server.api.problems import problem_from
-from server.api.schema.jobs import Job, JobEvent
 from server.errors import PlugPilotError
 from server.jobs.model import JobPhase, JobState
+from server.schema.jobs import Job, JobEvent
+from server.schema.problem import problem_from
 from server.storage.jobs import JobStore
 from server.timing import Calendar
 

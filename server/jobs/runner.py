@@ -10,8 +10,6 @@ from collections.abc import Callable
 from uuid6 import uuid7
 
 from drivers.station import StationDriver
-from server.api.schema.jobs import Job, JobRequest, JobResult
-from server.api.schema.vehicles import Vehicle
 from server.config.settings import Settings
 from server.control.lease import Lease
 from server.control.model import PlugState, RobotMode
@@ -35,6 +33,8 @@ from server.jobs.journal import Journal
 from server.jobs.model import JobPhase, JobState, JobType
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
+from server.schema.jobs import Job, JobRequest, JobResult
+from server.schema.vehicles import Vehicle
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
 from server.timing import Calendar

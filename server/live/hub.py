@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel
 
-from server.api.schema.live import PROTOCOL_VERSION
+from server.schema.live import PROTOCOL_VERSION
 
 STALE_AFTER_S = 1.0
 

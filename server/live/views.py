@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from drivers.robot import RobotState
 from drivers.station import StationSnapshot
-from server.api.schema.robot import (
+from server.control.faults import words_for
+from server.control.supervisor import Supervisor
+from server.localisation.socket_pose import SocketPose
+from server.schema.robot import (
     CommandedMotion,
     ControlHolder,
     Joints,
@@ -14,10 +17,7 @@ from server.api.schema.robot import (
     SocketEstimate,
     Tip,
 )
-from server.api.schema.station import Station
-from server.control.faults import words_for
-from server.control.supervisor import Supervisor
-from server.localisation.socket_pose import SocketPose
+from server.schema.station import Station
 from server.timing import Calendar
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition

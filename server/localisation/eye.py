@@ -6,11 +6,11 @@ import asyncio
 
 from drivers.camera import CameraDriver, CameraError, CameraModel, Frame
 from drivers.robot import BoardState
-from server.api.schema.vehicles import Vehicle
 from server.control.telemetry import Telemetry
 from server.localisation.errors import CameraDownError
 from server.localisation.frames import Pose, base_from_camera, inverse
 from server.localisation.socket_pose import SocketPose, socket_from_label
+from server.schema.vehicles import Vehicle
 from server.vision import LabelPose, Locator, VisionError, combine
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry

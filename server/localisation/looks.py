@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.api.schema.vehicles import Vehicle
 from server.localisation.frames import Pose, label_from_socket
+from server.schema.vehicles import Vehicle
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.kinematics import gamma

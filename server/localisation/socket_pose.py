@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from server.api.schema.vehicles import SocketOffset
 from server.localisation.frames import Pose, label_from_socket
+from server.schema.vehicles import SocketOffset
 from server.vision import LabelPose
 from twin.geometry import RobotGeometry
 from twin.joints import TipPosition

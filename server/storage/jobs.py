@@ -5,9 +5,9 @@ from __future__ import annotations
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from server.api.schema.jobs import Job, JobEvent, JobResult
-from server.api.schema.problem import Problem
 from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.jobs import Job, JobEvent, JobResult
+from server.schema.problem import Problem
 from server.storage.database import Database
 from server.storage.tables import JobEventRow, JobRow
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from server.api.schema.vehicles import Vehicle, VehicleSettings
+from server.schema.vehicles import Vehicle, VehicleSettings
 from server.storage.database import Database
 from server.storage.tables import VehicleRow
 

@@ -13,6 +13,9 @@ from server.vision.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
 from server.vision.projection import Array, perturbed
 
 MOST_ITERATIONS = 12
+PATIENCE = 8
+"""After so many iterations a fit that still swings a little is good enough: perfectly sharp edges
+snap from pixel to pixel."""
 DEPTH_FLOOR = 2.5e-5
 """Relative error of the distance that noise does not explain: the fall-off of the light across
 the picture pulls all edges a little towards its middle (measured on rendered pictures)."""
@@ -24,7 +27,7 @@ _TUKEY = 4.685  # 95% efficient for normal residuals (Beaton and Tukey 1974)
 _LEAST_CONTRAST = 0.2  # of the median contrast; below it an edge says nothing
 _SMALLEST_SCALE_PX = 0.01
 _CONVERGED_PX = 2e-3
-_SETTLED_PX = 0.05  # perfectly sharp edges keep a fit swinging a little
+_SETTLED_PX = 0.05
 _NARROW_BELOW_PX = 0.2
 _NARROW_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
@@ -78,8 +81,7 @@ def fit_edges(
     # Without a first guess of the spread all edges of a well predicted pose would be outliers.
     first = edge_offsets(image, camera, edges, pose, inverted=inverted)
     spread = float(np.median(first.offset_px))
-    moved_px = np.inf
-    for _ in range(MOST_ITERATIONS):
+    for iteration in range(MOST_ITERATIONS):
         measured = edge_offsets(
             image, camera, edges, pose, inverted=inverted, spread_px=spread, reach_px=reach_px
         )
@@ -90,23 +92,12 @@ def fit_edges(
         pose = perturbed(pose, step[:6])
         spread += float(step[6])
         moved_px = float(np.max(np.abs(system.design @ step)))
-        if moved_px < _CONVERGED_PX:
-            break
+        if moved_px < (_CONVERGED_PX if iteration < PATIENCE else _SETTLED_PX):
+            return _result(system, pose, spread, len(edges.points_mm))
         if moved_px < _NARROW_BELOW_PX and reach_px == MOST_REACH_PX:
+            # Longer profiles than the blur only collect noise and slopes of the light.
             reach_px = max(_NARROW_WIDTHS * measured.width_px, _LEAST_REACH_PX)
-    if moved_px > _SETTLED_PX:
-        return None
-    covariance = system.covariance()
-    covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2
-    covariance[5, 5] += (DEPTH_FLOOR * pose[2, 3]) ** 2
-    return EdgeFit(
-        T_camera_label=pose,
-        covariance=covariance,
-        rms_px=system.rms_px,
-        inlier_share=float(np.sum(system.weights > 0.1)) / len(edges.points_mm),
-        edge_count=len(edges.points_mm),
-        spread_px=spread,
-    )
+    return None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,6 +133,20 @@ class _System:
         count = len(scores)
         middle = (self.design.T * scores**2) @ self.design * (count / (count - 7))
         return np.asarray((inverse @ middle @ inverse)[:6, :6])
+
+
+def _result(system: _System, pose: Array, spread_px: float, edge_count: int) -> EdgeFit:
+    covariance = system.covariance()
+    covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2
+    covariance[5, 5] += (DEPTH_FLOOR * pose[2, 3]) ** 2
+    return EdgeFit(
+        T_camera_label=pose,
+        covariance=covariance,
+        rms_px=system.rms_px,
+        inlier_share=float(np.sum(system.weights > 0.1)) / edge_count,
+        edge_count=edge_count,
+        spread_px=spread_px,
+    )
 
 
 def _weigh(measured: EdgeOffsets, spread: float) -> _System | None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
 
-from server.api.schema.jobs import Job, JobResult
-from server.api.schema.live import Live, Service
-from server.api.schema.problem import Problem
-from server.api.schema.robot import (
+from server.control.model import PlugState, RobotMode
+from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.jobs import Job, JobResult
+from server.schema.live import Live, Service
+from server.schema.problem import Problem
+from server.schema.robot import (
     CommandedMotion,
     ControlHolder,
     Joints,
@@ -16,9 +18,7 @@ from server.api.schema.robot import (
     RobotFault,
     Tip,
 )
-from server.api.schema.station import Station
-from server.control.model import PlugState, RobotMode
-from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.station import Station
 
 NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
 _JOINTS = Joints(rho1_mm=203.2, rho2_mm=198.7, rho3_mm=92.4)

@@ -15,8 +15,8 @@ from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
 from fastapi.responses import JSONResponse
 
 from server.api.pages import pages_router
-from server.api.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
-from server.api.schema.vehicles import Vehicle, VehicleList
+from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
+from server.schema.vehicles import Vehicle, VehicleList
 from tests.browser.scenes import LABEL_NOT_FOUND, SCENES
 
 STATIC_DIR = Path(__file__).resolve().parents[2] / "server" / "static"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from server.api.dependencies import ServicesDep
-from server.api.schema.health import ComponentHealth, Health
 from server.control.model import RobotMode
+from server.schema.health import ComponentHealth, Health
 from server.services import Services
 from server.version import VERSION
 

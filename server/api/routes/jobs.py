@@ -11,8 +11,8 @@ from fastapi import APIRouter, Header, Path, Query, Response
 from server.api.dependencies import ServicesDep
 from server.api.errors import InvalidCursorError
 from server.api.problems import problem_responses
-from server.api.schema.jobs import Job, JobEvents, JobPage, JobRequest
 from server.jobs.errors import JobNotFoundError
+from server.schema.jobs import Job, JobEvents, JobPage, JobRequest
 
 router = APIRouter(prefix="/jobs", tags=["jobs"])
 

@@ -10,8 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from server.api.dependencies import ServicesDep
 from server.api.errors import InvalidRequestError
-from server.api.problems import problem_from
-from server.api.schema.live import (
+from server.errors import PlugPilotError
+from server.schema.live import (
     ClientMessage,
     EmergencyStopMessage,
     JogEndMessage,
@@ -21,7 +21,7 @@ from server.api.schema.live import (
     ResyncMessage,
     StopMessage,
 )
-from server.errors import PlugPilotError
+from server.schema.problem import problem_from
 from server.services import Services
 
 _log = logging.getLogger(__name__)
@@ -36,7 +36,7 @@ MAX_INVALID = 20
 
 @router.websocket("/ws")
 async def live(socket: WebSocket, services: ServicesDep) -> None:
-    """One watcher. See ``server.api.schema.live`` for the messages."""
+    """One watcher. See ``server.schema.live`` for the messages."""
     await socket.accept()
     await _Connection(socket, services).serve()
 

@@ -6,10 +6,10 @@ from fastapi import APIRouter
 
 from server.api.dependencies import ServicesDep
 from server.api.problems import problem_responses
-from server.api.schema.robot import JogStep, PlugConfirmation, Robot
 from server.control.errors import LateralMotionForbiddenError
 from server.control.model import PlugState
 from server.live.views import robot_view
+from server.schema.robot import JogStep, PlugConfirmation, Robot
 from server.services import Services
 
 router = APIRouter(prefix="/robot", tags=["robot"])

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fastapi import APIRouter
 
 from server.api.dependencies import ServicesDep
-from server.api.schema.station import Station
 from server.live.views import station_view
+from server.schema.station import Station
 
 router = APIRouter(prefix="/station", tags=["station"])
 

@@ -8,9 +8,9 @@ from fastapi import APIRouter, Path, Response
 
 from server.api.dependencies import ServicesDep
 from server.api.problems import problem_responses
-from server.api.schema.base import VehicleId
-from server.api.schema.vehicles import Vehicle, VehicleList, VehicleSettings
 from server.jobs.errors import UnknownVehicleError, VehicleInUseError
+from server.schema.base import VehicleId
+from server.schema.vehicles import Vehicle, VehicleList, VehicleSettings
 from server.services import Services
 
 router = APIRouter(prefix="/vehicles", tags=["vehicles"])

@@ -26,10 +26,13 @@ AllowedClientMessages = Callable[[WebSocket], frozenset[str]]
 
 SUBPROTOCOL = Subprotocol(f"viser-v{version('viser')}")
 MAX_CLIENT_MESSAGE_BYTES = 4096
-SEND_TIMEOUT_S = 8.0
+SEND_TIMEOUT_S = 30.0
+"""In the loop's time, which a fast simulation makes shorter: long enough for a bad minute of
+Wi-Fi there too."""
 
 _LOOPBACK = "127.0.0.1"
 _BUFFER_BYTES = 32 * 1024
+_CLOSE_TIMEOUT_S = 1.0
 _FORBIDDEN, _POLICY, _RESTARTING = 4403, 1008, 1012
 
 
@@ -77,6 +80,7 @@ async def _upstream(port: int) -> AsyncIterator[ClientConnection]:
             max_size=None,
             max_queue=1,
             ping_interval=None,
+            close_timeout=_CLOSE_TIMEOUT_S,
             proxy=None,
         )
     except BaseException:

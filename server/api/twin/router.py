@@ -12,6 +12,7 @@ from server.api.twin.page import TwinPage, build_page
 from twin.scene import TwinHost
 
 _READY_WITHIN_S = 5.0
+_LOOK_AGAIN_S = 0.05
 _RETRY_AFTER_S = 2
 
 _NOT_READY = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Digital twin</title>
@@ -45,7 +46,7 @@ def twin_router(
 
     @router.get("/twin/")
     async def page_of_twin(request: Request) -> Response:
-        if not await asyncio.to_thread(host.wait_ready, _READY_WITHIN_S):
+        if not await _is_ready(host):
             return HTMLResponse(
                 _NOT_READY,
                 status_code=503,
@@ -59,6 +60,15 @@ def twin_router(
         await bridge(ws, host.port, allowed_client_messages)
 
     return router
+
+
+async def _is_ready(host: TwinHost) -> bool:
+    """Waits a little for a picture that is still being built."""
+    loop = asyncio.get_running_loop()
+    deadline = loop.time() + _READY_WITHIN_S
+    while not host.ready and loop.time() < deadline:
+        await asyncio.sleep(_LOOK_AGAIN_S)
+    return host.ready
 
 
 def _respond(request: Request, page: TwinPage) -> Response:

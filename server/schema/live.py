@@ -11,11 +11,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from server.api.schema.base import Timestamp, Wire
-from server.api.schema.jobs import Job
-from server.api.schema.problem import Problem
-from server.api.schema.robot import JogStep, Robot
-from server.api.schema.station import Station
+from server.schema.base import Timestamp, Wire
+from server.schema.jobs import Job
+from server.schema.problem import Problem
+from server.schema.robot import JogStep, Robot
+from server.schema.station import Station
 
 PROTOCOL_VERSION: Literal[1] = 1
 

@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from server.api.schema.base import Timestamp, VehicleId, Wire
-from server.api.schema.problem import Problem
 from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.base import Timestamp, VehicleId, Wire
+from server.schema.problem import Problem
 
 
 class JobRequest(Wire):

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from server.api.schema.base import Timestamp, Wire
 from server.control.model import HolderKind, PlugState, RobotMode
+from server.schema.base import Timestamp, Wire
 
 
 class Joints(Wire):

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from server.api.schema.base import Wire
+from server.schema.base import Wire
 
 
 class ComponentHealth(Wire):

@@ -6,7 +6,10 @@ from typing import Any
 
 from pydantic import Field
 
-from server.api.schema.base import Wire
+from server.errors import PlugPilotError
+from server.schema.base import Wire
+
+TYPE_PREFIX = "urn:plugpilot:problem:"
 
 
 class Problem(Wire):
@@ -20,4 +23,17 @@ class Problem(Wire):
     remedy: str = Field(description="What a person can do about it")
     context: dict[str, Any] = Field(
         default_factory=dict, description="Facts of this occurrence, by name with unit"
+    )
+
+
+def problem_from(error: PlugPilotError) -> Problem:
+    """The problem document of an error."""
+    return Problem(
+        type=TYPE_PREFIX + error.code,
+        title=error.title,
+        status=error.status,
+        code=error.code,
+        detail=error.detail,
+        remedy=error.remedy,
+        context=error.context,
     )

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from server.api.schema.base import VehicleId, Wire
+from server.schema.base import VehicleId, Wire
 
 Offset = Annotated[float, Field(ge=-500, le=500, allow_inf_nan=False)]
 SmallAngle = Annotated[float, Field(ge=-0.6, le=0.6, allow_inf_nan=False)]

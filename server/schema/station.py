@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from server.api.schema.base import Timestamp, Wire
+from server.schema.base import Timestamp, Wire
 
 
 class Station(Wire):
