@@ -21,7 +21,7 @@ OPTICS = default_optics()
 
 
 def pose(
-    translation_mm: Sequence[float], tilt_deg: Sequence[float] = (0.0, 0.0, 0.0)
+    translation_mm: Sequence[float] | Array, tilt_deg: Sequence[float] | Array = (0.0, 0.0, 0.0)
 ) -> NDArray[np.float64]:
     """A pose from a translation [mm] and a rotation vector [degrees]."""
     result = np.eye(4)
@@ -92,21 +92,19 @@ def ideal_picture(
     Deliberately written without any part of the renderer or the locator: pixel (u, v) collects
     the light from u - 1/2 to u + 1/2, so its centre is at integer coordinates.
     """
+    image = np.zeros((camera.height, camera.width), dtype=np.uint8)
     steps = (np.arange(fineness) + 0.5) / fineness - 0.5
-    u = (np.arange(camera.width)[:, None] + steps).ravel()
-    v = (np.arange(camera.height)[:, None] + steps).ravel()
-    rays = np.stack(
-        np.broadcast_arrays((u - camera.cx) / camera.fx, (v[:, None] - camera.cy) / camera.fy, 1.0),
-        axis=-1,
-    )
-    normal = T_camera_label[:3, 2]
-    origin = T_camera_label[:3, 3]
-    distance = (normal @ origin) / (rays @ normal)
-    in_label = (rays * distance[..., None] - origin) @ T_camera_label[:3, :3]
+    x = ((np.arange(camera.width)[:, None] + steps).ravel() - camera.cx) / camera.fx
     count = modules.shape[0]
-    cells = np.floor(in_label[..., :2] / (SIZE_MM / count) + count / 2).astype(int)
-    inside = np.all((cells >= 0) & (cells < count), axis=-1)
-    column, row = np.clip(np.moveaxis(cells, -1, 0), 0, count - 1)
-    light = np.where(inside & modules[row, column], 30.0, 220.0)
-    mean = light.reshape(camera.height, fineness, camera.width, fineness).mean(axis=(1, 3))
-    return np.round(mean).astype(np.uint8)
+    for row in range(camera.height):
+        y = (row + steps - camera.cy) / camera.fy
+        rays = np.stack(np.broadcast_arrays(x, y[:, None], 1.0), axis=-1)
+        normal, origin = T_camera_label[:3, 2], T_camera_label[:3, 3]
+        distance = (normal @ origin) / (rays @ normal)
+        in_label = (rays * distance[..., None] - origin) @ T_camera_label[:3, :3]
+        cells = np.floor(in_label[..., :2] / (SIZE_MM / count) + count / 2).astype(int)
+        inside = np.all((cells >= 0) & (cells < count), axis=-1)
+        across, down = np.clip(np.moveaxis(cells, -1, 0), 0, count - 1)
+        light = np.where(inside & modules[down, across], 30.0, 220.0)
+        image[row] = np.round(light.reshape(fineness, camera.width, fineness).mean(axis=(0, 2)))
+    return image

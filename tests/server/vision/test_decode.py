@@ -88,7 +88,7 @@ def test_several_codes_come_largest_first() -> None:
 def test_hard_pictures_are_read(what: str, distance_mm: float, imaging: dict[str, float]) -> None:
     del what
     scene = view(pose((0.0, 0.0, distance_mm), (3.0, -2.0, 180.0)))
-    codes = find_codes(picture(scene, **imaging))
+    codes = find_codes(picture(scene, 0, **imaging))
     assert [code.payload for code in codes] == [PAYLOAD]
 
 

@@ -9,7 +9,7 @@ from drivers.camera import CameraModel
 from server.vision.bit_agreement import bit_agreement
 from server.vision.code_edges import code_edges
 from server.vision.edge_fit import fit_edges
-from server.vision.projection import perturbed
+from server.vision.projection import Array, perturbed
 from tests.server.vision.pictures import (
     OPTICS,
     PAYLOAD,
@@ -38,7 +38,7 @@ MODULE_MM = SIZE_MM / len(MODULES)
     ],
     ids=["at the truth", "sideways", "tilted", "turned and too far"],
 )
-def test_the_fit_forgets_where_it_started(start: np.ndarray) -> None:  # type: ignore[type-arg]
+def test_the_fit_forgets_where_it_started(start: Array) -> None:
     fit = fit_edges(picture(view(TRUE)), OPTICS, EDGES, perturbed(TRUE, start))
     assert fit is not None
     error = pose_error(fit.T_camera_label, TRUE)
@@ -50,7 +50,7 @@ def test_the_fit_forgets_where_it_started(start: np.ndarray) -> None:  # type: i
 
 def test_ink_spread_does_not_change_the_distance() -> None:
     """Black areas 0.2 px wider on all sides: the seventh unknown takes it, not the depth."""
-    camera = CameraModel(width=320, height=300, fx=600.0, fy=600.0, cx=152.3, cy=148.9)
+    camera = CameraModel(width=260, height=240, fx=480.0, fy=480.0, cx=132.3, cy=118.9)
     true = pose((1.0, 2.0, 200.0), (4.0, 3.0, 0.0))
     ideal = ideal_picture(camera, MODULES, true, fineness=8)
     # A gamma curve after blur moves the edges as ink does.

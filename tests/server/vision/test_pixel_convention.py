@@ -12,7 +12,7 @@ from server.vision.start_pose import corners_mm
 from tests.server.vision.pictures import PAYLOAD, SIZE_MM, ideal_picture, pose, pose_error
 from twin.qr_label import label_modules
 
-CAMERA = CameraModel(width=320, height=300, fx=600.0, fy=600.0, cx=152.3, cy=148.9)
+CAMERA = CameraModel(width=260, height=240, fx=480.0, fy=480.0, cx=132.3, cy=118.9)
 
 
 @pytest.mark.parametrize(
@@ -25,7 +25,7 @@ CAMERA = CameraModel(width=320, height=300, fx=600.0, fy=600.0, cx=152.3, cy=148
     ids=["head-on", "quarter turn", "oblique"],
 )
 def test_an_ideal_picture_is_located_to_a_hundredth_of_a_pixel(T_camera_label: Array) -> None:
-    image = ideal_picture(CAMERA, label_modules(PAYLOAD), T_camera_label, fineness=12)
+    image = ideal_picture(CAMERA, label_modules(PAYLOAD), T_camera_label, fineness=10)
     found = Locator(CAMERA).locate(image, label_size_mm=SIZE_MM)
     corners = corners_mm(SIZE_MM)
     there = project(CAMERA, found.T_camera_label, corners).pixels
