@@ -111,7 +111,7 @@ class SimulatedRobot:
         try:
             await asyncio.shield(self._homing_task)
         except RobotDriverError as error:
-            if not self._linked:
+            if not (self._linked and self._cable):
                 raise NotConnectedError("The link was lost during homing.") from error
             raise
 

@@ -6,6 +6,7 @@ up to then is worked out; between two questions at rest nothing is computed.
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
@@ -200,11 +201,10 @@ class SimulatedWorld:
 
     def measured_force_n(self, state: PlantState) -> float:
         """Force of the rho3 motor as its current shows it, without noise."""
-        velocity = state.velocity.rho3_mm_s
-        friction_n = self.parameters.drives.friction_n * float(np.sign(velocity))
-        if state.blocked_since_s is not None:
-            wanted_mm = self.line.at(state.t_s).position.rho3_mm - state.motors.rho3_mm
-            return self._force_limit_n * float(np.sign(wanted_mm))
+        wanted_mm = self.line.at(state.t_s).position.rho3_mm - state.motors.rho3_mm
+        if state.blocked_since_s is not None and wanted_mm != 0:
+            return math.copysign(self._force_limit_n, wanted_mm)
+        friction_n = self.parameters.drives.friction_n * float(np.sign(state.velocity.rho3_mm_s))
         return (state.contact.force_n + friction_n) * self._force_scale
 
     def drive_to(self, position: JointPosition, now_s: float) -> None:

@@ -6,8 +6,6 @@ import asyncio
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, TypeVar
 
-import numpy as np
-
 from drivers.robot import BoardState, RobotState
 from drivers.simulator.camera import default_optics
 from drivers.simulator.garage import SimulatedGarage, build_garage
@@ -109,17 +107,14 @@ class Stand:
         target = socket[:3, 3] - socket[:3, 2] * gap_mm
         joints = gamma.inverse(GEOMETRY, TipPosition(*target))
         await self.move(joints._replace(rho3_mm=GEOMETRY.rho3.min_mm))
-        for _ in range(3):
+        for _ in range(4):
             await self.move(joints)
-            truth = self.world.truth(self.now_s)
-            plug = truth.T_base_plug
+            plug = self.world.truth(self.now_s).T_base_plug
             axis, normal = plug[:3, 2], socket[:3, 2]
             to_face = socket[:3, 3] - plug[:3, 3]
-            error = to_face - axis * float(to_face @ normal) / float(axis @ normal)
-            target = target + error + np.array([off_mm, 0.0, 0.0])
+            target += to_face - axis * float(to_face @ normal) / float(axis @ normal)
+            target += off_mm * socket[:3, 0]
             joints = gamma.inverse(GEOMETRY, TipPosition(*target))
-            target = target - np.array([off_mm, 0.0, 0.0])
-        await self.move(joints)
         plug = self.world.truth(self.now_s).T_base_plug
         assert abs(lateral_at_face_mm(plug, socket) - abs(off_mm)) < 0.1
         return joints

@@ -11,7 +11,7 @@ from drivers.simulator.homing import trapezoid
 from drivers.simulator.parameters import SimulationParameters
 from tests.drivers.simulator.stand import GEOMETRY, PERFECT, Stand, changed, on_stand
 from twin.joints import JointPosition
-from twin.kinematics import gamma
+from twin.kinematics import LegsCannotCloseError, alpha
 
 UNHOMED = SimulationParameters()
 
@@ -73,7 +73,7 @@ def test_homing_draws_the_plug_back_before_anything_moves_sideways() -> None:
                 assert state.commanded.position.rho2_mm == start.rho2_mm
             # all the way the legs close, with room to spare
             rho1, rho2, _ = state.commanded.position
-            assert gamma.alpha.forward(GEOMETRY, rho1, rho2).y_mm > 200.0
+            assert alpha.forward(GEOMETRY, rho1, rho2).y_mm > 200.0
         await homing
 
     far_out = changed(UNHOMED, "board", start_joints=JointPosition(330.0, 20.0, 90.0))
@@ -94,7 +94,7 @@ def test_a_pose_in_which_the_legs_cannot_close_is_no_place_to_start() -> None:
     async def scenario(_: Stand) -> None:
         pytest.fail("the garage was built")
 
-    with pytest.raises(gamma.alpha.LegsCannotCloseError):
+    with pytest.raises(LegsCannotCloseError):
         on_stand(scenario, changed(PERFECT, "board", start_joints=JointPosition(0.0, 0.0, 50.0)))
 
 

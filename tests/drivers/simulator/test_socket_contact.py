@@ -68,7 +68,9 @@ def test_a_small_lateral_error_goes_in_with_more_friction() -> None:
     straight = go(socket, ramp(-1.0, 40.0))
     beside = go(socket, ramp(-1.0, 40.0), lateral=1.0)
     assert beside[-1].place is Place.IN_SOCKET
-    assert max(c.force_n for c in beside) - max(c.force_n for c in straight) == pytest.approx(6.0)
+    assert max(c.force_n for c in beside) - max(c.force_n for c in straight) == pytest.approx(
+        NUMBERS.misalignment_friction_n_mm
+    )
     assert beside[-1].entry_lateral_mm == 1.0
 
 
