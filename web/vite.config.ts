@@ -52,8 +52,6 @@ export default defineConfig({
     include: ["**/*.test.ts"],
     setupFiles: ["../tests/web/setup.ts"],
     environment: "happy-dom",
-    // Frames stay empty in the tests: that is no error.
-    environmentOptions: { happyDOM: { settings: { handleDisabledFileLoadingAsSuccess: true } } },
     restoreMocks: true,
   },
 });

@@ -60,9 +60,11 @@ class Stage:
                 with suppress(TimeoutError):
                     await asyncio.wait_for(connection.receive_text(), BEAT_S)
                 sequence += 1
-                delta = DeltaMessage(sequence=sequence, changes=self._changes(shown))
+                changes = self._changes(shown)
                 shown = self.live
-                await connection.send_text(delta.model_dump_json(exclude_none=True))
+                delta = DeltaMessage(sequence=sequence, changes=changes)
+                unchanged = set(LiveChanges.model_fields) - changes.model_fields_set
+                await connection.send_text(delta.model_dump_json(exclude={"changes": unchanged}))
 
     def _changes(self, shown: Live) -> LiveChanges:
         """What differs, and always the robot: its measurements never stand still."""

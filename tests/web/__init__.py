@@ -1,1 +1,1 @@
-"""Tests of the web pages: the pages themselves (``npm test`` in web/), how they are served, built."""
+"""Tests of the web pages (``npm test`` in web/), of their build and of how they are served."""

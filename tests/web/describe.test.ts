@@ -129,6 +129,11 @@ suite("the sentence", () => {
     expect(found.action?.kind).toBe(kind);
   });
 
+  test("says that a job finds the position first", () => {
+    const found = said({ robot: robot({ mode: "homing" }), job: job({ phase: "preflight" }) });
+    expect(found).toMatchObject({ headline: "Finding its position", action: { kind: "cancel" } });
+  });
+
   test("waiting for the current can be broken off, by cancelling: there is nothing to finish", () => {
     expect(said({ job: job({ phase: "plugged" }) }).action).toEqual({
       kind: "cancel",

@@ -129,7 +129,7 @@ export const words = {
     unplug: "Unplug",
     cancel: "Cancel",
     release: "Release the stop",
-    clear: "Clear the problem",
+    clear: "Release the fault",
     plugOut: "Yes, it is out",
     plugIn: "No, it is still in",
     busy: "One moment…",

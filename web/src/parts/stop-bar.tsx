@@ -6,11 +6,10 @@ import { words } from "@/words";
 export function StopBar() {
   if (!description.value.stoppable) return null;
   return (
-    <div class="stop-bar">
+    <section class="stop-bar" aria-label={words.action.stopHint}>
       <button
         type="button"
         class="stop"
-        aria-describedby="stop-hint"
         // Stops as soon as the finger touches, not when it lifts.
         onPointerDown={() => pressStop("stop")}
         onClick={(event) => {
@@ -22,9 +21,6 @@ export function StopBar() {
         </svg>
         {stopping.value ? words.action.stopping : words.action.stop}
       </button>
-      <span id="stop-hint" class="unseen">
-        {words.action.stopHint}
-      </span>
-    </div>
+    </section>
   );
 }

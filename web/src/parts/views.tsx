@@ -14,6 +14,10 @@ const ICONS: Record<View, string> = {
 /** The camera or the 3D view; neither is loaded before it is asked for. */
 export function Views() {
   const open = useSignal<View | null>(null);
+  const view = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    if (open.value !== null) view.current?.scrollIntoView({ block: "nearest" });
+  }, [open.value]);
   return (
     <section class="card views">
       <h2>{words.views.title}</h2>
@@ -23,25 +27,25 @@ export function Views() {
         aria-label={words.views.title}
         data-open={open.value !== null}
       >
-        {VIEWS.map((view) => (
+        {VIEWS.map((each) => (
           <button
-            key={view}
+            key={each}
             type="button"
             class="button"
-            aria-pressed={open.value === view}
+            aria-pressed={open.value === each}
             onClick={() => {
-              open.value = open.value === view ? null : view;
+              open.value = open.value === each ? null : each;
             }}
           >
             <svg viewBox="0 0 24 24" aria-hidden="true">
-              <path d={ICONS[view]} />
+              <path d={ICONS[each]} />
             </svg>
-            {words.views[view]}
-            <span class="hint">{words.views[`${view}Hint`]}</span>
+            {words.views[each]}
+            <span class="hint">{words.views[`${each}Hint`]}</span>
           </button>
         ))}
       </div>
-      <div class="view" data-open={open.value !== null}>
+      <div ref={view} class="view" data-open={open.value !== null}>
         {open.value === "camera" && <Camera />}
         {open.value === "twin" && <Twin />}
       </div>

@@ -143,7 +143,8 @@ function describeJob(robot: Robot, job: Job, base: Base): Description {
     const sentence = isMovingPhase(job.phase) ? say.cancelling : say.ending;
     return { ...base, ...sentence, tone: "busy", scene, action: null };
   }
-  const { headline, detail } = words.phases[job.phase];
+  const findsPosition = job.phase === "preflight" && robot.mode === "homing";
+  const { headline, detail } = findsPosition ? say.homing : words.phases[job.phase];
   const tone = job.phase === "charging" || job.phase === "plugged" ? "good" : "busy";
   return { ...base, headline, detail, tone, scene, action: actionOf(job) };
 }

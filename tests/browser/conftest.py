@@ -1,0 +1,36 @@
+"""One browser and one stage for all tests of a module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser
+
+from tests.browser.chromium import EXECUTABLE, chromium
+from tests.browser.stage import STATIC_DIR, Stage, serve
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """The machine's Chromium."""
+    if not Path(EXECUTABLE).exists():
+        pytest.skip(f"needs {EXECUTABLE}")
+    with chromium() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def stage() -> Stage:
+    """What the pages are shown."""
+    if not (STATIC_DIR / "index.html").exists():
+        pytest.skip("needs the built pages: run `make setup`")
+    return Stage()
+
+
+@pytest.fixture(scope="module")
+def address(stage: Stage) -> Iterator[str]:
+    """Where the stage is served."""
+    with serve(stage) as url:
+        yield url

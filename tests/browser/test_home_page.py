@@ -1,0 +1,170 @@
+"""The home page in a real browser: accessible, within its budget, and safe to touch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal
+
+import pytest
+from playwright.sync_api import Browser, Page, Response, expect
+
+from tests.browser.chromium import DESKTOP, PHONE
+from tests.browser.scenes import SCENES
+from tests.browser.stage import Stage
+
+AXE = Path(__file__).resolve().parents[2] / "web/node_modules/axe-core/axe.min.js"
+LARGE_TEXT = "html { font-size: 200% }"
+
+MAX_REQUESTS = 10
+MAX_BYTES = 60_000
+MIN_TARGET_PX = 44
+MIN_STOP_PX = 64
+MIN_AIR_PX = 24
+
+Scheme = Literal["light", "dark"]
+
+
+@pytest.fixture(scope="module", params=["light", "dark"])
+def page(browser: Browser, request: pytest.FixtureRequest) -> Iterator[Page]:
+    """A phone, by day and by night."""
+    context = browser.new_context(
+        viewport={"width": PHONE["width"], "height": PHONE["height"]},
+        color_scheme=request.param,
+        reduced_motion="reduce",
+        has_touch=True,
+        is_mobile=True,
+    )
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    yield page
+    context.close()
+    assert errors == []
+
+
+@pytest.fixture
+def desktop(browser: Browser) -> Iterator[Page]:
+    """A laptop."""
+    page = browser.new_page(viewport={"width": DESKTOP["width"], "height": DESKTOP["height"]})
+    yield page
+    page.close()
+
+
+def _open(page: Page, address: str, stage: Stage, scene: str) -> None:
+    stage.live = SCENES[scene]
+    stage.requests.clear()
+    page.goto(address)
+    page.locator(".link[data-link=live]").wait_for()
+
+
+def _violations(page: Page) -> list[str]:
+    """Rules of axe that the page breaks, with the elements."""
+    if not AXE.exists():
+        pytest.skip("needs axe-core: run `npm ci` in web/")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found: list[dict[str, Any]] = page.evaluate("() => axe.run().then((r) => r.violations)")
+    return [f"{each['id']}: {[node['html'] for node in each['nodes']]}" for each in found]
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_state_is_accessible(page: Page, address: str, stage: Stage, scene: str) -> None:
+    _open(page, address, stage, scene)
+    assert _violations(page) == []
+
+
+def test_dialogs_and_details_are_accessible(page: Page, address: str, stage: Stage) -> None:
+    _open(page, address, stage, "ready")
+    page.locator("summary").click()
+    page.get_by_role("button", name="Emergency stop").wait_for()
+    page.get_by_role("button", name="Charge").click()
+    page.get_by_role("dialog").wait_for()
+    assert _violations(page) == []
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_nothing_is_too_small_or_too_wide(
+    page: Page, address: str, stage: Stage, scene: str
+) -> None:
+    _open(page, address, stage, scene)
+    for target in page.locator("button, summary").all():
+        box = target.bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) >= MIN_TARGET_PX, target.inner_text()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+
+
+@pytest.mark.parametrize("scene", ["ready", "charging", "failed"])
+def test_text_may_be_twice_as_large(page: Page, address: str, stage: Stage, scene: str) -> None:
+    _open(page, address, stage, scene)
+    # Through the style sheet object: the page's own policy forbids a style element.
+    page.evaluate(
+        "(rule) => { const s = new CSSStyleSheet(); s.replaceSync(rule);"
+        " document.adoptedStyleSheets = [s]; }",
+        LARGE_TEXT,
+    )
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+
+
+def test_stop_is_large_and_alone(page: Page, address: str, stage: Stage) -> None:
+    _open(page, address, stage, "aligning")
+    stop = page.get_by_role("button", name="Stop", exact=True)
+    box = stop.bounding_box()
+    bar = page.locator(".stop-bar").bounding_box()
+    assert box is not None
+    assert bar is not None
+    assert box["height"] >= MIN_STOP_PX
+    # The bar covers what is below it, so its padding is the air around the button.
+    assert box["y"] - bar["y"] >= MIN_AIR_PX
+    assert bar["y"] + bar["height"] - box["y"] - box["height"] >= MIN_AIR_PX
+    middle = box["x"] + box["width"] / 2
+    for y in (box["y"] - MIN_AIR_PX + 1, box["y"] + box["height"] + MIN_AIR_PX - 1):
+        assert page.evaluate(
+            "([x, y]) => document.elementFromPoint(x, y).closest('button, a, summary') === null",
+            [middle, y],
+        ), "another control is within the air of the stop button"
+
+
+def test_two_taps_start_a_charge(page: Page, address: str, stage: Stage) -> None:
+    _open(page, address, stage, "ready")
+    page.get_by_role("button", name="Charge").tap()
+    with page.expect_request(lambda request: request.url.endswith("/jobs")) as started:
+        page.get_by_role("button", name="Renault Zoe").tap()
+    assert started.value.post_data_json == {"type": "charge", "vehicle_id": "zoe"}
+    assert started.value.headers["idempotency-key"]
+
+
+def test_page_keeps_its_budget_and_its_policy(desktop: Page, address: str, stage: Stage) -> None:
+    responses: list[Response] = []
+    complaints: list[str] = []
+    desktop.on("response", lambda response: responses.append(response))  # noqa: PLW0108 - Playwright cannot take a built-in
+    desktop.on("console", lambda message: complaints.append(message.text))
+    desktop.on("pageerror", lambda error: complaints.append(str(error)))
+    _open(desktop, address, stage, "charging")
+    expect(desktop.get_by_role("heading", level=1)).to_have_text("Your car is charging")
+    assert complaints == []
+    assert all(response.url.startswith(address) for response in responses)
+    assert len(responses) <= MAX_REQUESTS
+    sent = sum(
+        response.request.sizes()["responseBodySize"]
+        + response.request.sizes()["responseHeadersSize"]
+        for response in responses
+    )
+    assert 5_000 < sent <= MAX_BYTES
+
+
+def test_changing_states_move_nothing(desktop: Page, address: str, stage: Stage) -> None:
+    _open(desktop, address, stage, "locating")
+    desktop.evaluate(
+        "() => { window.shift = 0; new PerformanceObserver((list) => {"
+        " for (const e of list.getEntries()) window.shift += e.value;"
+        " }).observe({ type: 'layout-shift', buffered: true }); }"
+    )
+    for scene, headline in (
+        ("aligning", "Moving to the car"),
+        ("inserting", "Plugging in"),
+        ("charging", "Your car is charging"),
+    ):
+        stage.live = SCENES[scene]
+        expect(desktop.get_by_role("heading", level=1)).to_have_text(headline)
+    assert desktop.evaluate("window.shift") < 0.1
