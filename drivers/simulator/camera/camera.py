@@ -133,10 +133,12 @@ class SimulatedCamera:
     def _next_number(self, opened_at_s: float, now_s: float, exposed_after_s: float | None) -> int:
         """Number of the next frame to be delivered whose exposure began late enough."""
         imaging = self._imaging
-        since_s = now_s - imaging.exposure_s - imaging.latency_s
-        if exposed_after_s is not None:
-            since_s = max(since_s, exposed_after_s)
-        return max(math.ceil((since_s - opened_at_s - _ROUNDING_S) * imaging.frames_per_s), 0)
+        delivered_s = now_s - imaging.exposure_s - imaging.latency_s - opened_at_s + _ROUNDING_S
+        number = max(math.floor(delivered_s * imaging.frames_per_s) + 1, 0)
+        if exposed_after_s is None:
+            return number
+        began_s = exposed_after_s - opened_at_s - _ROUNDING_S
+        return max(number, math.ceil(began_s * imaging.frames_per_s))
 
     def _delivered_at_s(self, opened_at_s: float, number: int) -> float:
         imaging = self._imaging

@@ -52,6 +52,8 @@ class PlaneTexture:
         if sigma >= 3 * _ENOUGH_TEXELS:
             coarser = self._reduced(int(sigma / _ENOUGH_TEXELS))
             return coarser.blurred(sigma_px, motion_mm, px_per_mm)
+        # Linear interpolation makes a ramp of one texel, variance 1/12, of a step between two.
+        sigma = float(np.sqrt(max(sigma**2 - 1 / 12, 0.05)))
         way = np.array(motion_mm) / self.texel_mm
         margin = int(np.ceil(3.5 * sigma + np.abs(way).max() / 2)) + 1
         layers = []
