@@ -7,7 +7,7 @@ import socket
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from datetime import UTC, datetime
+from datetime import timedelta
 from pathlib import Path
 
 import uvicorn
@@ -60,15 +60,16 @@ class Stage:
                 with suppress(TimeoutError):
                     await asyncio.wait_for(connection.receive_text(), BEAT_S)
                 sequence += 1
-                changes = self._changes(shown)
+                changes = self._changes(shown, sequence)
                 shown = self.live
                 delta = DeltaMessage(sequence=sequence, changes=changes)
                 unchanged = set(LiveChanges.model_fields) - changes.model_fields_set
                 await connection.send_text(delta.model_dump_json(exclude={"changes": unchanged}))
 
-    def _changes(self, shown: Live) -> LiveChanges:
+    def _changes(self, shown: Live, beat: int) -> LiveChanges:
         """What differs, and always the robot: its measurements never stand still."""
-        robot = self.live.robot.model_copy(update={"updated_at": datetime.now(UTC)})
+        updated_at = self.live.robot.updated_at + beat * timedelta(seconds=BEAT_S)
+        robot = self.live.robot.model_copy(update={"updated_at": updated_at})
         differing = {
             name: getattr(self.live, name)
             for name in ("job", "station", "service")
