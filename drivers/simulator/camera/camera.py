@@ -6,9 +6,6 @@ import asyncio
 import math
 from collections.abc import Callable
 
-import numpy as np
-from numpy.typing import NDArray
-
 from drivers.camera import CameraError, CameraModel, CameraTimeoutError, Frame
 from drivers.simulator.camera.imaging import CameraFault, ImagingParameters
 from drivers.simulator.camera.renderer import Renderer
@@ -70,6 +67,10 @@ class SimulatedCamera:
         """
         self._require_plugged()
         self._newest = None
+        if self._renderer is None:
+            self._renderer = await asyncio.to_thread(
+                Renderer, self._optics, self._imaging, self._seed
+            )
         self._opened_at_s = asyncio.get_running_loop().time()
 
     async def close(self) -> None:
@@ -117,18 +118,13 @@ class SimulatedCamera:
             else:
                 dark = self.fault is CameraFault.DARK
                 view = self._view(captured_at_s)
-                image = await asyncio.to_thread(self._picture, view, number, dark=dark)
+                renderer = self._require_renderer()
+                image = await asyncio.to_thread(renderer.picture, view, number, dark=dark)
+                image.flags.writeable = False
             frame = Frame(image, captured_at_s, number)
             if newest is None or newest.sequence < number:
                 self._newest = frame
             return frame
-
-    def _picture(self, view: CameraView, number: int, *, dark: bool) -> NDArray[np.uint8]:
-        if self._renderer is None:
-            self._renderer = Renderer(self._optics, self._imaging, self._seed)
-        image = self._renderer.picture(view, number, dark=dark)
-        image.flags.writeable = False
-        return image
 
     def _next_number(self, opened_at_s: float, now_s: float, exposed_after_s: float | None) -> int:
         """Number of the next frame to be delivered whose exposure began late enough."""
@@ -152,6 +148,10 @@ class SimulatedCamera:
     def _require_open(self) -> float:
         self._require_plugged()
         if self._opened_at_s is None:
-            message = f"{self.name} is not open: open it first"
-            raise CameraError(message)
+            raise CameraError(f"{self.name} is not open: open it first")
         return self._opened_at_s
+
+    def _require_renderer(self) -> Renderer:
+        if self._renderer is None:  # closed while others were waiting for their picture
+            raise CameraError(f"{self.name} is not open: open it first")
+        return self._renderer

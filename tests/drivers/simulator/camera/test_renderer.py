@@ -93,7 +93,7 @@ def test_a_label_looks_as_brute_force_says(label: NDArray[np.float64]) -> None:
     cv2.fillConvexPoly(inside, np.asarray(pixels).round().astype(np.int32), (1,))
     difference = (canvas - expected)[inside > 0]
     assert np.sqrt(np.mean(difference**2)) < 0.012
-    assert np.abs(difference).max() < 0.05
+    assert np.abs(difference).max() < 0.07
     # A picture shifted by a tenth of a pixel to any side would fit worse.
     for axis in (0, 1):
         slope = np.gradient(expected, axis=axis)[inside > 0]
