@@ -19,7 +19,11 @@ if TYPE_CHECKING:
 logger = logging.getLogger(__name__)
 
 STEP_S = 1 / 30
+_QUIET_STEP_S = 0.05
+"""Longest wait for a new state: what moves by itself goes on."""
 _IDLE_STEP_S = 0.25
+_BEAT_S = 0.4
+"""Every beat makes the browsers draw; a robot that stands still should not warm a phone."""
 _HEARTBEATS = 64
 _JOIN_S = 8.0
 
@@ -48,6 +52,7 @@ class TwinHost:
         self._aspect = aspect
         self._newest: TwinState | None = None
         self._stop = threading.Event()
+        self._changed = threading.Event()
         self._opened = threading.Event()
         self._thread: threading.Thread | None = None
         self._port: int | None = None
@@ -82,11 +87,14 @@ class TwinHost:
     def publish(self, state: TwinState) -> None:
         """Hands over the newest state. Older ones that were not shown yet are forgotten."""
         self._newest = state
+        if self._watching:
+            self._changed.set()
 
     def stop(self) -> None:
         """Stops the thread and closes the port; waits a few seconds for that at most."""
         thread, self._thread = self._thread, None
         self._stop.set()
+        self._changed.set()
         if thread is not None:
             thread.join(_JOIN_S)
 
@@ -130,24 +138,22 @@ class TwinHost:
         # Read by the page: while this number changes, what it shows is alive. A small counter,
         # because viser drops values that are nearly the same as the last one.
         heartbeat = server.scene.add_frame("/heartbeat", show_axes=False, visible=False)
-        beat = 0
         shown: TwinState | None = None
-        due = time.monotonic()
         while not self._stop.is_set():
-            self._watching = viser_server.watchers(server)
-            if self._watching:
-                with server.atomic():
-                    state = self._newest
-                    if state is not None and state is not shown:
-                        scene.show(state)
-                        shown = state
-                    scene.animate()
-                    beat = (beat + 1) % _HEARTBEATS
-                    heartbeat.position = (float(beat), 0.0, 0.0)
-                step = STEP_S
-            else:
-                viser_server.compact(server)
-                step = _IDLE_STEP_S
             now = time.monotonic()
-            due = max(due + step, now)
-            self._stop.wait(due - now)
+            self._watching = viser_server.watchers(server)
+            if not self._watching:
+                viser_server.compact(server)
+                self._stop.wait(_IDLE_STEP_S)
+                continue
+            self._changed.clear()
+            with server.atomic():
+                state = self._newest
+                if state is not None and state is not shown:
+                    scene.show(state)
+                    shown = state
+                scene.animate(now)
+                heartbeat.position = (float(int(now / _BEAT_S) % _HEARTBEATS), 0.0, 0.0)
+            # Not more often than the rate, and then as soon as there is something new.
+            self._stop.wait(max(0.0, now + STEP_S - time.monotonic()))
+            self._changed.wait(_QUIET_STEP_S)

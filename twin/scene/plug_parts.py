@@ -80,9 +80,11 @@ def slide(bracket_z_mm: float, rho3_min_mm: float, rho3_max_mm: float) -> list[P
     end = rho3_max_mm + _CARRIER_S + 34.0
     length, middle = end - start, (start + end) / 2
     bracket_length = start - bracket_z_mm + 26.0
-    bracket = block((66.0, 58.0, bracket_length), radius_mm=9.0)
+    # Two cheeks, so that the cable can hang between them.
+    cheek = block((12.0, 62.0, bracket_length), radius_mm=8.0)
+    middle_z, height = bracket_z_mm + bracket_length / 2, _RAIL_DROP + 20.0
     return [
-        (bracket.moved((0, _RAIL_DROP + 24.0, bracket_z_mm + bracket_length / 2)), SHELL),
+        *((cheek.moved((side, height, middle_z)), SHELL) for side in (-35.0, 35.0)),
         (block((58.0, 18.0, length), radius_mm=5.0).moved((0, _RAIL_DROP, middle)), ALUMINIUM),
         (rod(6.0, length).moved((0, _RAIL_DROP + 17.0, start)), STEEL),
         (block((60.0, 40.0, 10.0)).moved((0, _RAIL_DROP + 9.0, end - 2.0)), ANTHRACITE),

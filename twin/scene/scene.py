@@ -14,7 +14,8 @@ from twin.scene.robot_nodes import RobotNodes
 from twin.scene.state import TwinState
 from twin.scene.workspace_region import add_workspace_region
 
-_STEPS_PER_PULSE_MOVE = 2
+_LINKS_PER_S = 12.0
+"""Speed of the light along the cable."""
 
 
 class TwinScene:
@@ -52,7 +53,6 @@ class TwinScene:
         self.robot = RobotNodes(scene, geometry, mount, hfov_rad=hfov_rad, aspect=aspect)
         self.car = CarNodes(scene, geometry)
         self._charging = False
-        self._steps = 0
         self.show(TwinState())
 
     def show(self, state: TwinState) -> None:
@@ -61,10 +61,7 @@ class TwinScene:
         self.car.show(state)
         self._charging = state.charging
 
-    def animate(self) -> None:
-        """One step of the light that runs along the cable while the car charges."""
-        if self._charging:
-            self._steps += 1
-            self.robot.cable.show_flow(self._steps // _STEPS_PER_PULSE_MOVE)
-        else:
-            self.robot.cable.show_flow(None)
+    def animate(self, time_s: float) -> None:
+        """Moves the light that runs along the cable while the car charges."""
+        step = int(time_s * _LINKS_PER_S) if self._charging else None
+        self.robot.cable.show_flow(step)

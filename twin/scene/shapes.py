@@ -164,7 +164,7 @@ def block(size_mm: tuple[float, float, float], *, radius_mm: float = 4.0) -> Mes
 
 def lathe(profile: Sequence[tuple[float, float]], *, count: int = 40) -> Mesh:
     """A solid or bowl turned about z from (radius, z) points, with an edge at each point."""
-    rings = [_ring(circle(max(r, 0.01), count), z) for r, z in profile]
+    rings = [_ring(circle(r, count), z) for r, z in profile]
     return loft(rings, closed=False)
 
 

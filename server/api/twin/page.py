@@ -5,17 +5,16 @@ from __future__ import annotations
 import base64
 import gzip
 import hashlib
+import importlib.util
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import viser
 import zstandard
 from numpy.typing import NDArray
 
 _HERE = Path(__file__).parent
-_CLIENT = Path(viser.__file__).parent / "client" / "build" / "index.html"
 _LOADER = re.compile(
     r'<script data-p="(?P<packed>[^"]*)" data-ss="(?P<style>\d+)" data-cs="(?P<code>\d+)">'
     r"(?P<loader>.*?)</script>",
@@ -24,6 +23,15 @@ _LOADER = re.compile(
 _ALPHABET = (
     "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
 )
+
+
+def _client_page() -> Path:
+    """The installed client's page, found without loading the 3D library."""
+    spec = importlib.util.find_spec("viser")
+    if spec is None or spec.origin is None:
+        msg = "The 3D client is not installed; install viser."
+        raise ClientPageError(msg)
+    return Path(spec.origin).parent / "client" / "build" / "index.html"
 
 
 class ClientPageError(RuntimeError):
@@ -94,7 +102,7 @@ def build_page() -> TwinPage:
     Raises:
         ClientPageError: The client was built in another way than the pinned version's.
     """
-    html = _CLIENT.read_text(encoding="utf-8")
+    html = _client_page().read_text(encoding="utf-8")
     found = _LOADER.search(html)
     if found is None:
         msg = "The 3D client's page has changed; pin viser to the version in pyproject.toml."

@@ -66,7 +66,8 @@ async def _is_ready(host: TwinHost) -> bool:
     """Waits a little for a picture that is still being built."""
     loop = asyncio.get_running_loop()
     deadline = loop.time() + _READY_WITHIN_S
-    while not host.ready and loop.time() < deadline:
+    # Another thread builds it and knows nothing of this loop.
+    while not host.ready and loop.time() < deadline:  # noqa: ASYNC110
         await asyncio.sleep(_LOOK_AGAIN_S)
     return host.ready
 

@@ -1,0 +1,110 @@
+"""The picture in a real browser."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+import pytest
+from playwright.async_api import Browser, Page, ViewportSize
+
+from tests.server.twin.conftest import Serve
+from tests.support.eventually import eventually
+from twin.geometry import RobotGeometry
+from twin.joints import JointPosition
+from twin.kinematics import gamma
+from twin.scene import TwinHost, TwinState
+
+pytestmark = pytest.mark.browser
+
+SMALL: ViewportSize = {"width": 160, "height": 120}
+"""Software graphics are slow."""
+HOME = JointPosition(200.0, 200.0, 60.0)
+NODES = ["/robot/bar_ab", "/robot/platform/plug", "/car/inlet", "/label", "/cable", "/region/edges"]
+
+
+async def open_twin(browser: Browser, address: str, path: str = "/twin/") -> Page:
+    page = await browser.new_page(viewport=SMALL)
+    joiner = "&" if "?" in path else "?"
+    await page.goto(f"http://{address}{path}{joiner}fixedDpr=0.25")
+    return page
+
+
+async def position_of(page: Page, node: str) -> list[float]:
+    position: list[float] = await page.evaluate(
+        "name => [...(window.__viserMutable.nodePoseData[name]?.position ?? [])]", node
+    )
+    return position
+
+
+async def until_at(page: Page, node: str, expected_m: tuple[float, float, float]) -> None:
+    """Waits until a node is drawn where it should be."""
+
+    async def is_there() -> bool:
+        return bool(await position_of(page, node) == pytest.approx(list(expected_m), abs=1e-6))
+
+    await eventually(is_there, within_s=15)
+
+
+def platform_m(joints: JointPosition) -> tuple[float, float, float]:
+    x, y = gamma.platform(RobotGeometry(), joints)
+    return x / 1000, y / 1000, 0.0
+
+
+async def test_it_shows_the_robot_and_follows_it(
+    chromium: Browser, host: TwinHost, serve: Serve
+) -> None:
+    host.publish(TwinState(measured=HOME))
+    async with serve(host) as address:
+        faults: list[str] = []
+        asked: list[str] = []
+        page = await chromium.new_page(viewport=SMALL)
+        page.on("console", lambda m: faults.append(m.text) if m.type == "error" else None)
+        page.on("pageerror", lambda e: faults.append(str(e)))
+        page.on("request", lambda r: asked.append(r.url))
+        await page.goto(f"http://{address}/twin/?fixedDpr=0.25")
+        await page.wait_for_selector("html[data-twin=live]", state="attached", timeout=30_000)
+        await until_at(page, "/robot/platform", platform_m(HOME))
+
+        tree: dict[str, Any] = await page.evaluate("() => window.__viserSceneTree.getState()")
+        assert set(NODES) <= set(tree)
+        assert await page.locator("canvas").count() >= 1
+        assert await page.locator("[data-floating-window]:visible").count() == 0
+
+        moved = HOME._replace(rho1_mm=260.0, rho3_mm=90.0)
+        host.publish(TwinState(measured=moved))
+        await until_at(page, "/robot/platform", platform_m(moved))
+
+        assert faults == []
+        assert all(url.startswith((f"http://{address}/", "data:", "blob:")) for url in asked)
+
+
+async def test_the_page_around_hears_that_it_lives_and_that_it_died(
+    chromium: Browser, host: TwinHost, serve: Serve
+) -> None:
+    async with serve(host) as address:
+        page = await open_twin(chromium, address, "/around")
+
+        async def until_said(word: str) -> None:
+            async def is_said() -> bool:
+                return bool(await page.evaluate("() => said.at(-1)") == word)
+
+            await eventually(is_said, within_s=30)
+
+        await until_said("live")
+        await asyncio.to_thread(host.stop)
+        await until_said("stale")
+        # An untouched frame has no focus, and yet it comes back by itself.
+        host.start()
+        await until_said("live")
+
+
+@pytest.mark.parametrize(("query", "dark"), [("", True), ("?theme=light", False)])
+async def test_it_is_dark_unless_asked_to_be_light(
+    chromium: Browser, host: TwinHost, serve: Serve, query: str, dark: bool
+) -> None:
+    async with serve(host) as address:
+        page = await open_twin(chromium, address, f"/twin/{query}")
+        await page.wait_for_selector("canvas", state="attached", timeout=30_000)
+        scheme = await page.get_attribute("html", "data-mantine-color-scheme")
+        assert scheme == ("dark" if dark else "light")

@@ -1,0 +1,32 @@
+"""A scene on a real viser server that nobody watches."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import pytest
+import viser
+
+from twin.camera_mount import CameraMount
+from twin.geometry import RobotGeometry
+from twin.scene import viser_server
+from twin.scene.scene import TwinScene
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = viser_server.open_server()
+    yield server
+    server.stop()
+
+
+@pytest.fixture(scope="session")
+def geometry() -> RobotGeometry:
+    return RobotGeometry()
+
+
+@pytest.fixture
+def scene(server: viser.ViserServer, geometry: RobotGeometry) -> TwinScene:
+    mount = CameraMount()
+    return TwinScene(server.scene, geometry, mount, hfov_rad=math.radians(62.2), aspect=4 / 3)
