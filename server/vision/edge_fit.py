@@ -78,13 +78,10 @@ def fit_edges(
         The fit, or None where too few edges are visible or the fit does not settle.
     """
     pose, reach_px = T_start, MOST_REACH_PX
+    measured = edge_offsets(image, camera, edges, pose, inverted=inverted)
     # Without a first guess of the spread all edges of a well predicted pose would be outliers.
-    first = edge_offsets(image, camera, edges, pose, inverted=inverted)
-    spread = float(np.median(first.offset_px))
+    spread = float(np.median(measured.offset_px))
     for iteration in range(MOST_ITERATIONS):
-        measured = edge_offsets(
-            image, camera, edges, pose, inverted=inverted, spread_px=spread, reach_px=reach_px
-        )
         system = _weigh(measured, spread)
         if system is None:
             return None
@@ -97,6 +94,9 @@ def fit_edges(
         if moved_px < _NARROW_BELOW_PX and reach_px == MOST_REACH_PX:
             # Longer profiles than the blur only collect noise and slopes of the light.
             reach_px = max(_NARROW_WIDTHS * measured.width_px, _LEAST_REACH_PX)
+        measured = edge_offsets(
+            image, camera, edges, pose, inverted=inverted, spread_px=spread, reach_px=reach_px
+        )
     return None
 
 
