@@ -15,8 +15,9 @@ from server.vision.projection import Array, perturbed, rotation_vector
 class CommonErrors:
     """Errors that all pictures of a standstill share, so that averaging cannot remove them.
 
-    They come from the place of the label's edges on the pixel grid, which does not change while
-    nothing moves. Standard deviations; measured with tests.bench.locate on noise-free pictures.
+    They come from the light and from the place of the edges on the pixel grid, which do not
+    change while nothing moves. Standard deviations; about four times what is left in rendered
+    pictures (tests.bench.locate), because real light is less even.
 
     Attributes:
         rotation_rad: About each axis.
