@@ -26,7 +26,7 @@ class JobContext:
         lease: Proof of control for the length of the job.
         eye: Camera and locator.
         station: The charging station.
-        vehicle: Whose socket it is about.
+        vehicle: Whose socket it is about; None when unplugging a car that nobody knows any more.
         settings: The whole configuration.
         journal: Of this job.
         accepted_at_s: Event loop time at which the job was accepted.
@@ -41,7 +41,7 @@ class JobContext:
     lease: Lease
     eye: Eye
     station: StationDriver
-    vehicle: Vehicle
+    vehicle: Vehicle | None
     settings: Settings
     journal: Journal
     accepted_at_s: float
@@ -55,6 +55,12 @@ class JobContext:
         """Take over a new pose of the socket and show it."""
         self.socket = socket
         self.on_sighting(socket)
+
+    def require_vehicle(self) -> Vehicle:
+        """The vehicle; known in every job that has to find a socket."""
+        if self.vehicle is None:
+            raise AssertionError("a job that looks for a socket was accepted without a vehicle")
+        return self.vehicle
 
     def require_socket(self) -> SocketPose:
         """The socket as last measured; a phase that needs it comes after one that measures it."""

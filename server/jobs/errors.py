@@ -4,6 +4,7 @@ JobError
 ├── JobRunningError          another job is running
 ├── JobNotFoundError         no such job
 ├── JobEndedError            the job has ended and cannot be changed
+├── JobCancelledError        somebody cancelled the job
 ├── NotChargingError         the job is not charging, so it cannot be finished
 ├── IdempotencyReuseError    the same key came with another request
 ├── UnknownVehicleError      no such vehicle
@@ -55,6 +56,14 @@ class JobEndedError(JobError):
 
     code = "job_ended"
     title = "The job has already ended"
+    remedy = "Start a new job."
+
+
+class JobCancelledError(JobError):
+    """Somebody cancelled the job; ends its phases, and is never shown."""
+
+    code = "cancelled"
+    title = "The job was cancelled"
     remedy = "Start a new job."
 
 

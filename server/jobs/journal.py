@@ -76,6 +76,13 @@ class Journal:
         data = {"code": problem.code, **problem.context} if problem else {}
         await self._record(state.value, message, data, state=state, error=problem)
 
+    def give_up(self, error: PlugPilotError) -> None:
+        """The job is over, and that cannot be written; the next start writes it."""
+        self.job = self.job.model_copy(
+            update={"state": JobState.FAILED, "error": problem_from(error)}
+        )
+        self._changed(self.job)
+
     async def _record(
         self,
         kind: str,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import logging
-
+from drivers.station import StationError
 from server.control.errors import (
     ControlLostError,
     EmergencyStoppedError,
@@ -14,8 +13,13 @@ from server.control.errors import (
 from server.control.model import PlugState
 from server.errors import InternalError, PlugPilotError
 from server.jobs.context import JobContext
-from server.jobs.errors import StillLockedError, StillUnderLoadError
-from server.jobs.model import JobType
+from server.jobs.errors import (
+    JobCancelledError,
+    StationUnsafeError,
+    StillLockedError,
+    StillUnderLoadError,
+)
+from server.jobs.model import JobPhase, JobType
 from server.jobs.phases import (
     aligning,
     charging,
@@ -27,20 +31,25 @@ from server.jobs.phases import (
     releasing,
     withdrawing,
 )
+from server.schema.jobs import Job
+from server.storage.errors import StorageError
 
-_log = logging.getLogger(__name__)
+STOPS = (RobotStoppedError, EmergencyStoppedError)
 
 STAY = (
-    RobotStoppedError,
-    EmergencyStoppedError,
+    *STOPS,
     RobotFaultError,
     RobotOfflineError,
     ControlLostError,
     StillLockedError,
     StillUnderLoadError,
+    StorageError,
     InternalError,
 )
 """After these the robot stays where it is: a person has stopped it, or must look first."""
+
+WAY_BACK = {JobPhase.RELEASING, JobPhase.WITHDRAWING, JobPhase.PARKING}
+"""What goes wrong here is not tried again: a person must look first."""
 
 
 async def plug_in(job: JobContext) -> None:
@@ -69,26 +78,47 @@ async def carry_out(job: JobContext) -> None:
             await charging.run(job)
             await unplug(job)
         case JobType.UNPLUG:
-            await preflight.switch_on(job)
+            await preflight.make_ready_to_unplug(job)
             await unplug(job)
 
 
-async def retreat(job: JobContext, cause: PlugPilotError | None) -> None:
+def may_be_cancelled(job: Job) -> bool:
+    """Whether cancelling a running job changes anything: it is not on its way back already.
+
+    Unplugging can be given up until the plug moves.
+    """
+    if job.type is JobType.UNPLUG:
+        return job.phase in {JobPhase.PREFLIGHT, JobPhase.RELEASING}
+    return job.phase not in WAY_BACK
+
+
+async def retreat(job: JobContext, cause: PlugPilotError) -> None:
     """Bring plug and robot back to safety after a cancellation or an error.
 
-    What goes wrong on the way back is written into the journal; the cause stays the job's error.
+    Raises:
+        PlugPilotError: what went wrong on the way back; the robot stays where it is.
     """
+    if isinstance(cause, STOPS):
+        await _power_off(job)
     if isinstance(cause, STAY):
         return
-    try:
-        if job.supervisor.plug.state is PlugState.INSERTED:
-            await unplug(job)
-        elif (
-            job.supervisor.plug.state is PlugState.FREE and job.supervisor.telemetry.require().homed
-        ):
-            await parking.run(job)
-    except PlugPilotError as error:
-        _log.warning("the robot could not go back: %s", error)
-        await job.journal.note(
-            "retreat_failed", f"{error.title}: {error.detail} {error.remedy}", code=error.code
-        )
+    if job.journal.job.type is JobType.UNPLUG:
+        if isinstance(cause, JobCancelledError):
+            await releasing.end_hold(job.station)
+        return
+    if job.journal.job.phase in WAY_BACK:
+        return
+    plug = job.supervisor.plug.state
+    if plug is PlugState.INSERTED:
+        await unplug(job)
+    elif plug is PlugState.FREE and job.supervisor.telemetry.require().homed:
+        await parking.run(job)
+
+
+async def _power_off(job: JobContext) -> None:
+    """Somebody pressed a stop: the car gets no more power either."""
+    if job.supervisor.plug.state is PlugState.INSERTED and job.station.capabilities.switches:
+        try:
+            await job.station.stop()
+        except StationError as error:
+            raise StationUnsafeError(f"The power could not be switched off: {error}") from error

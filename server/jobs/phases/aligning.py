@@ -69,7 +69,7 @@ async def _approach(job: JobContext) -> None:
 async def _correct_on_the_way(job: JobContext, motion: Motion) -> None:
     """Bend the motion whenever a picture taken on the way shows the socket elsewhere."""
     while not motion.last_leg:
-        seen = await job.eye.look(job.vehicle, job.socket)
+        seen = await job.eye.look(job.require_vehicle(), job.socket)
         if seen is None or motion.last_leg:
             continue
         shift_mm = math.dist(seen.entry, job.require_socket().entry)
@@ -81,13 +81,13 @@ async def _correct_on_the_way(job: JobContext, motion: Motion) -> None:
 
 async def _measure_and_correct(job: JobContext) -> float:
     """One measurement at standstill and the move it asks for; returns the move's length [mm]."""
-    settings, supervisor = job.settings.insertion, job.supervisor
+    settings, supervisor, vehicle = job.settings.insertion, job.supervisor, job.require_vehicle()
     await asyncio.sleep(settings.settle_s)
-    socket = await job.eye.measure(job.vehicle, settings.measurement_frames, job.socket)
+    socket = await job.eye.measure(vehicle, settings.measurement_frames, job.socket)
     if socket is None:
         raise LabelNotFoundError(
-            f"The label of {job.vehicle.name} cannot be read from in front of the socket.",
-            payload=job.vehicle.label_payload,
+            f"The label of {vehicle.name} cannot be read from in front of the socket.",
+            payload=vehicle.label_payload,
         )
     _refuse_uncertain(socket, settings.max_lateral_sigma_mm)
     refuse_skewed(job, socket)

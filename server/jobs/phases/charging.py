@@ -6,8 +6,6 @@ import asyncio
 import contextlib
 
 from drivers.station import PilotState, StationError, StationSnapshot
-from server.control.errors import EmergencyStoppedError
-from server.control.model import RobotMode
 from server.jobs.context import JobContext
 from server.jobs.errors import StationUnsafeError
 from server.jobs.model import JobPhase
@@ -15,6 +13,8 @@ from server.jobs.model import JobPhase
 POLL_S = 1.0
 CAR_DECIDES_S = 30.0
 """A car that draws nothing for this long, after it did or from the start, wants no more."""
+STANDBY_W = 50.0
+"""A charging car draws 1.4 kW or more (6 A); what is below is a meter's noise or a heater."""
 SILENCE_LIMIT_S = 60.0
 
 
@@ -42,7 +42,6 @@ async def _until_done(job: JobContext, energy_before_wh: float) -> str:
         if await _finish_wanted(job):
             return "Somebody ended the charging."
         try:
-            await _obey_emergency_stop(job)
             snapshot = await job.station.snapshot()
         except StationError as error:
             if loop.time() - heard_s > SILENCE_LIMIT_S:
@@ -52,7 +51,7 @@ async def _until_done(job: JobContext, energy_before_wh: float) -> str:
             continue
         heard_s = loop.time()
         _refuse_fault(snapshot)
-        if snapshot.power_w > 0:
+        if snapshot.power_w > STANDBY_W:
             drawing_s = heard_s
         energy_wh = snapshot.session_energy_wh - energy_before_wh
         job.energy_wh = energy_wh
@@ -69,13 +68,6 @@ async def _finish_wanted(job: JobContext) -> bool:
         async with asyncio.timeout(POLL_S):
             await job.finish.wait()
     return job.finish.is_set()
-
-
-async def _obey_emergency_stop(job: JobContext) -> None:
-    """An emergency stop ends the charging too, although nothing moves."""
-    if job.supervisor.mode is RobotMode.EMERGENCY_STOP:
-        await job.station.stop()
-        raise EmergencyStoppedError("The emergency stop was pressed while the car charged.")
 
 
 def _refuse_fault(snapshot: StationSnapshot) -> None:

@@ -58,15 +58,15 @@ def refuse_skewed(job: JobContext, socket: SocketPose) -> None:
 
 
 async def _search(job: JobContext) -> SocketPose:
-    insertion = job.settings.insertion
-    socket = await job.eye.look(job.vehicle)
+    insertion, vehicle = job.settings.insertion, job.require_vehicle()
+    socket = await job.eye.look(vehicle)
     if socket is not None:
         return socket
     planner = LookPlanner(
         job.supervisor.geometry,
         job.eye.mount,
         job.eye.optics,
-        job.vehicle,
+        vehicle,
         insertion_depth_mm=insertion.depth_mm,
         approach_mm=insertion.pre_insertion_distance_mm,
     )
@@ -77,7 +77,7 @@ async def _search(job: JobContext) -> SocketPose:
         target = _joints_at(job, look)
         if math.dist((look.x_mm, look.y_mm), here) > HERE_MM:
             await job.supervisor.move_joints(job.lease, target)
-            socket = await job.eye.look(job.vehicle)
+            socket = await job.eye.look(vehicle)
             looks += 1
             await job.journal.note(
                 "look",
@@ -89,10 +89,10 @@ async def _search(job: JobContext) -> SocketPose:
             if socket is not None:
                 return socket
     raise LabelNotFoundError(
-        f"The label of {job.vehicle.name} was in none of {looks} pictures "
+        f"The label of {vehicle.name} was in none of {looks} pictures "
         "that together show every place where it may be.",
         looks=looks,
-        payload=job.vehicle.label_payload,
+        payload=vehicle.label_payload,
     )
 
 

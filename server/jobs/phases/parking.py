@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from drivers.station import StationError
 from server.jobs.approach import parking_joints
 from server.jobs.context import JobContext
-from server.jobs.errors import StationUnsafeError
 from server.jobs.model import JobPhase
+from server.jobs.phases.releasing import end_hold
 
 
 async def run(job: JobContext) -> None:
     """Park, and give the station back to whoever controls it otherwise."""
     await job.journal.begin(JobPhase.PARKING, "Going back to the parking place.")
     await go(job)
-    if job.station.capabilities.holds:
-        try:
-            await job.station.release()
-        except StationError as error:
-            raise StationUnsafeError(
-                f"The hold on the station could not be released: {error}"
-            ) from error
+    await end_hold(job.station)
 
 
 async def go(job: JobContext) -> None:

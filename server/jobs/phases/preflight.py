@@ -8,6 +8,7 @@ from server.jobs.context import JobContext
 from server.jobs.errors import StationUnsafeError
 from server.jobs.model import JobPhase
 from server.jobs.phases import parking
+from server.jobs.phases.releasing import end_hold
 
 
 async def run(job: JobContext) -> None:
@@ -19,14 +20,19 @@ async def run(job: JobContext) -> None:
     """
     await job.journal.begin(JobPhase.PREFLIGHT, "Checking the robot and the charging station.")
     await _check_station(job)
-    await switch_on(job)
+    await _switch_on(job)
     await _home(job)
     if job.supervisor.plug.state is not PlugState.PARKED:
         await parking.go(job)
 
 
-async def switch_on(job: JobContext) -> None:
-    """Switch the drives on when they are off."""
+async def make_ready_to_unplug(job: JobContext) -> None:
+    """Switch the drives on; where the robot is shows in how it withdraws."""
+    await job.journal.begin(JobPhase.PREFLIGHT, "Checking the robot.")
+    await _switch_on(job)
+
+
+async def _switch_on(job: JobContext) -> None:
     if not job.supervisor.telemetry.require().enabled:
         await job.journal.note("enabling", "Switching the drives on.")
         await job.supervisor.enable(job.lease)
@@ -46,6 +52,9 @@ async def _check_station(job: JobContext) -> None:
         snapshot = await job.station.snapshot()
     except StationError as error:
         raise StationUnsafeError(str(error)) from error
+    if snapshot.held:
+        # An earlier job had to leave it behind; it would keep this car from charging.
+        await end_hold(job.station)
     _refuse_unsafe(snapshot)
 
 

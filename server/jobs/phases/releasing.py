@@ -9,9 +9,14 @@ from __future__ import annotations
 
 import asyncio
 
-from drivers.station import StationDriver, StationError, StationSnapshot
+from drivers.station import (
+    StationCapabilities,
+    StationDriver,
+    StationError,
+    StationSnapshot,
+)
 from server.jobs.context import JobContext
-from server.jobs.errors import StationUnsafeError, StillUnderLoadError
+from server.jobs.errors import JobError, StationUnsafeError, StillUnderLoadError
 from server.jobs.model import JobPhase
 
 SAMPLES_NEEDED = 2
@@ -48,25 +53,54 @@ async def run(job: JobContext) -> None:
     )
 
 
+async def end_hold(station: StationDriver) -> None:
+    """Give the station back to whoever controls it otherwise.
+
+    Raises:
+        StationUnsafeError: the station does not answer.
+    """
+    if station.capabilities.holds:
+        try:
+            await station.release()
+        except StationError as error:
+            raise StationUnsafeError(
+                f"The hold on the station could not be released: {error}"
+            ) from error
+
+
+def why_not_safe(
+    snapshot: StationSnapshot, capabilities: StationCapabilities, now_s: float
+) -> JobError | None:
+    """What a reading has against pulling the plug now; None proves that it is safe."""
+    age_s = now_s - snapshot.sampled_at_s
+    if age_s > FRESH_S:
+        return StationUnsafeError(
+            f"The newest reading of the charging station is {age_s:.1f} s old.",
+            age_s=round(age_s, 1),
+        )
+    if snapshot.carries_load or (capabilities.switches and snapshot.enabled):
+        current_a = round(max(snapshot.currents_a), 2)
+        return StillUnderLoadError(
+            f"The charging station gives {current_a:.1f} A or is about to "
+            f"(state {snapshot.pilot.value}).",
+            current_a=current_a,
+            pilot=snapshot.pilot.value,
+        )
+    return None
+
+
 async def _wait_for_no_load(station: StationDriver) -> None:
     loop = asyncio.get_running_loop()
     deadline_s = loop.time() + TIMEOUT_S
     safe_in_a_row, last_sample_s = 0, -1.0
     while safe_in_a_row < SAMPLES_NEEDED:
         snapshot = await station.snapshot()
-        if snapshot.sampled_at_s > last_sample_s:
-            last_sample_s = snapshot.sampled_at_s
-            safe_in_a_row = safe_in_a_row + 1 if is_safe(snapshot, loop.time()) else 0
-        if loop.time() > deadline_s:
-            raise StillUnderLoadError(
-                f"After {TIMEOUT_S:.0f} s the station still gives {max(snapshot.currents_a):.1f} A "
-                f"(state {snapshot.pilot.value}).",
-                current_a=max(snapshot.currents_a),
-                pilot=snapshot.pilot.value,
-            )
+        problem = why_not_safe(snapshot, station.capabilities, loop.time())
+        if problem is not None:
+            safe_in_a_row = 0
+        elif snapshot.sampled_at_s > last_sample_s:
+            safe_in_a_row += 1
+        last_sample_s = max(snapshot.sampled_at_s, last_sample_s)
+        if problem is not None and loop.time() > deadline_s:
+            raise problem
         await asyncio.sleep(SAMPLE_S)
-
-
-def is_safe(snapshot: StationSnapshot, now_s: float) -> bool:
-    """Whether a reading proves that the plug may be pulled now."""
-    return now_s - snapshot.sampled_at_s <= FRESH_S and not snapshot.carries_load

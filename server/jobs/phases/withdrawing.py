@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 
-from drivers.robot import RobotState
+from drivers.robot import FaultCode, RobotState
 from drivers.station import StationDriver, StationError
-from server.control.errors import ForceLimitError, RobotFaultError
+from server.control.errors import ControlError, ForceLimitError, RobotFaultError
 from server.control.force_watch import ForceWatch
 from server.control.plug_guard import Corridor
+from server.errors import InternalError, PlugPilotError
 from server.jobs.context import JobContext
-from server.jobs.errors import StationUnsafeError, StillLockedError, StillUnderLoadError
+from server.jobs.errors import JobError, StationUnsafeError, StillLockedError
 from server.jobs.model import JobPhase
-from server.jobs.phases.releasing import is_safe
+from server.jobs.phases.releasing import why_not_safe
 from twin.kinematics import gamma
 from twin.motion import plan_straight_line
+
+_log = logging.getLogger(__name__)
 
 WATCH_S = 0.2
 SILENCE_LIMIT_S = 1.0
@@ -35,14 +39,16 @@ async def run(job: JobContext) -> None:
     watching = asyncio.create_task(guard.watch_station(job.station), name="station watch")
     try:
         corridor = supervisor.plug.corridor
-        if corridor is None:
+        if corridor is None or not supervisor.telemetry.require().homed:
             await _withdraw_blindly(job, guard)
         else:
             await _withdraw(job, corridor, guard)
-    except (ForceLimitError, RobotFaultError) as error:
-        raise StillLockedError(
-            error.detail, max_pull_n=round(guard.forces.largest_pull_n, 1)
-        ) from error
+    except ForceLimitError as error:
+        raise _still_locked(error, guard) from error
+    except RobotFaultError as error:
+        if error.context.get("fault") != FaultCode.STALL.value:
+            raise
+        raise _still_locked(error, guard) from error
     finally:
         watching.cancel()
         await asyncio.gather(watching, return_exceptions=True)
@@ -50,6 +56,10 @@ async def run(job: JobContext) -> None:
     await job.journal.note(
         "withdrawn", "The plug is out.", max_pull_n=round(guard.forces.largest_pull_n, 1)
     )
+
+
+def _still_locked(error: ControlError, guard: _Guard) -> StillLockedError:
+    return StillLockedError(error.detail, max_pull_n=round(guard.forces.largest_pull_n, 1))
 
 
 async def _withdraw(job: JobContext, corridor: Corridor, guard: _Guard) -> None:
@@ -86,7 +96,7 @@ class _Guard:
     def __init__(self, limit_n: float) -> None:
         self.forces = ForceWatch(pull_limit_n=limit_n)
         self.alarmed = asyncio.Event()
-        self._alarm: Exception | None = None
+        self._alarm: PlugPilotError | None = None
 
     def raise_alarm(self) -> None:
         if self._alarm is not None:
@@ -97,25 +107,33 @@ class _Guard:
         self.forces.check(state)
 
     async def watch_station(self, station: StationDriver) -> None:
-        loop = asyncio.get_running_loop()
-        heard_s = loop.time()
-        while self._alarm is None:
-            try:
-                async with asyncio.timeout(SILENCE_LIMIT_S):
-                    snapshot = await station.snapshot()
-            except (StationError, TimeoutError) as error:
-                if loop.time() - heard_s >= SILENCE_LIMIT_S:
-                    self._alarm = StationUnsafeError(
-                        f"The charging station fell silent during the withdrawal: {error}"
-                    )
-            else:
-                heard_s = loop.time()
-                if not is_safe(snapshot, heard_s):
-                    self._alarm = StillUnderLoadError(
-                        "The charging station began to give power during the withdrawal "
-                        f"(state {snapshot.pilot.value}).",
-                        pilot=snapshot.pilot.value,
-                    )
-            if self._alarm is None:
-                await asyncio.sleep(WATCH_S)
+        """Ends with an alarm, whatever happens to it: nobody pulls without a watch."""
+        try:
+            self._alarm = await _first_sign_of_danger(station)
+        except Exception:  # noqa: BLE001 - logged; whatever it is, the motion must stop
+            _log.exception("the watch over the charging station failed")
+            self._alarm = InternalError(
+                "The watch over the charging station failed. The log has the details."
+            )
         self.alarmed.set()
+
+
+async def _first_sign_of_danger(station: StationDriver) -> JobError:
+    """Watch the station until something speaks against pulling the plug."""
+    loop = asyncio.get_running_loop()
+    heard_s = loop.time()
+    while True:
+        try:
+            async with asyncio.timeout(SILENCE_LIMIT_S):
+                snapshot = await station.snapshot()
+        except (StationError, TimeoutError) as error:
+            if loop.time() - heard_s >= SILENCE_LIMIT_S:
+                return StationUnsafeError(
+                    f"The charging station fell silent during the withdrawal. {error}".strip()
+                )
+        else:
+            heard_s = loop.time()
+            problem = why_not_safe(snapshot, station.capabilities, heard_s)
+            if problem is not None:
+                return problem
+        await asyncio.sleep(WATCH_S)
