@@ -17,6 +17,9 @@ Image = NDArray[np.uint8]
 _FORMATS = zxingcpp.BarcodeFormats([zxingcpp.BarcodeFormat.QRCodeModel2])
 
 
+_SMALLEST_LOOK_PX, _LARGEST_LOOK_PX = 100, 2600  # longer side of scaled pictures
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Code:
     """One QR code found in a picture.
@@ -75,7 +78,7 @@ def _attempts(image: Image) -> Iterator[Callable[[], list[Code]]]:
     yield lambda: _read(_equalised(image))  # shadow, glare, low contrast
     longest = max(image.shape)
     for scale in (2.0, 3.0, 0.5, 0.25):  # modules of 1 to 2 px; defocus
-        if 100 <= longest * scale <= 4000:
+        if _SMALLEST_LOOK_PX <= longest * scale <= _LARGEST_LOOK_PX:
             yield partial(_read_scaled, image, scale)
 
 

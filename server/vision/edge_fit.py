@@ -89,6 +89,8 @@ def fit_edges(
         pose = perturbed(pose, step[:6])
         spread += float(step[6])
         moved_px = float(np.max(np.abs(system.design @ step)))
+        if not moved_px < MOST_REACH_PX or pose[2, 3] <= 0:
+            return None
         if moved_px < (_CONVERGED_PX if iteration < PATIENCE else _SETTLED_PX):
             return _result(system, pose, spread, len(edges.points_mm))
         if moved_px < _NARROW_BELOW_PX and reach_px == MOST_REACH_PX:
@@ -120,7 +122,7 @@ class _System:
         """Weighted least squares solution, shape (7,)."""
         normal = (self.design.T * self.weights) @ self.design
         right = self.design.T @ (self.weights * self.residuals)
-        return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
+        return np.asarray(np.linalg.lstsq(normal, right)[0], dtype=np.float64)
 
     @property
     def rms_px(self) -> float:

@@ -190,7 +190,7 @@ class Locator:
         at_start = bit_agreement(image, self._camera, modules, start, label_size_mm)
         fit = fit_edges(image, self._camera, edges, start, inverted=at_start < 0.4)
         if fit is None:
-            return "too few edges of the code are visible"
+            return "too few of its edges are visible, or the fit does not settle"
         problem = self._problem(image, modules, fit, label_size_mm)
         if problem is not None:
             return problem

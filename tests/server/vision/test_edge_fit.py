@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 
@@ -95,3 +96,16 @@ def test_bits_agree_at_the_true_pose_only() -> None:
     slipped[0, 3] += MODULE_MM
     assert bit_agreement(image, OPTICS, MODULES, slipped, SIZE_MM) < 0.75
     assert bit_agreement(255 - image, OPTICS, MODULES, TRUE, SIZE_MM) < 0.05
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_meaningless_pictures_give_no_fit_or_a_bad_one_but_no_surprise(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    noise = rng.integers(0, 256, (60, 80), dtype=np.uint8)
+    size = (OPTICS.width, OPTICS.height)
+    image = np.asarray(cv2.resize(noise, size, interpolation=cv2.INTER_CUBIC), dtype=np.uint8)
+    start = pose(rng.uniform((-40, -40, 210), (40, 40, 290)), rng.uniform(-50, 50, 3))
+    fit = fit_edges(image, OPTICS, EDGES, start)
+    if fit is not None:
+        agreement = bit_agreement(image, OPTICS, MODULES, fit.T_camera_label, SIZE_MM)
+        assert agreement < 0.75
