@@ -2,7 +2,8 @@
 
 from server.vision.average import combine
 from server.vision.errors import VisionError
+from server.vision.gates import Gates
 from server.vision.label_pose import LabelPose, PoseSource
-from server.vision.locator import Gates, Locator
+from server.vision.locator import Locator
 
 __all__ = ["Gates", "LabelPose", "Locator", "PoseSource", "VisionError", "combine"]

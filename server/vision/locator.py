@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from server.vision.bit_agreement import bit_agreement
 from server.vision.code_edges import code_edges
 from server.vision.corner_pose import corner_pose
 from server.vision.decode import Code, find_codes
-from server.vision.edge_fit import EdgeFit, fit_edges
+from server.vision.edge_fit import fit_edges
 from server.vision.errors import (
     ImageSizeMismatchError,
     MirroredCodeError,
@@ -20,9 +20,9 @@ from server.vision.errors import (
     PoseRejectedError,
     WrongPayloadError,
 )
+from server.vision.gates import Gates
 from server.vision.label_pose import LabelPose
-from server.vision.projection import project
-from server.vision.start_pose import corners_mm, start_poses
+from server.vision.start_pose import start_poses
 from twin.qr_label import label_modules
 
 Image = NDArray[np.uint8]
@@ -32,24 +32,15 @@ OWN_LABEL_AGREEMENT = 0.9
 """Sampled modules that agree this well with our own encoding of the text are one of our labels."""
 
 
-@dataclass(frozen=True, slots=True)
-class Gates:
-    """Limits beyond which a fit is rejected.
+UNDOUBTED_RMS_PX = 0.1
+"""A fit this good did not settle on the opposite tilt; of those it leaves more than 0.2 px."""
 
-    Attributes:
-        rms_modules: Largest root mean square edge distance, in modules ...
-        rms_px: ... or in pixels, whichever is more: small codes are drawn by few pixels.
-        inlier_share: Smallest share of edges that agree.
-        bit_agreement: Smallest share of modules that look as the code says.
-        tracked_fits: A predicted pose saves the decoding at most so often in a row; then the
-            code is read again, because a slipped fit can pass for a right one.
-    """
 
-    rms_modules: float = 0.06
-    rms_px: float = 0.35
-    inlier_share: float = 0.6
-    bit_agreement: float = 0.85
-    tracked_fits: int = 10
+class _LastCode(NamedTuple):
+    """What a prediction needs of the code that was read last."""
+
+    payload: str
+    modules: NDArray[np.bool_]
 
 
 class Locator:
@@ -63,7 +54,7 @@ class Locator:
     def __init__(self, camera: CameraModel, gates: Gates | None = None) -> None:
         self._camera = camera
         self._gates = gates or Gates()
-        self._last: Code | None = None
+        self._last: _LastCode | None = None
         self._tracked = 0
 
     @property
@@ -136,22 +127,25 @@ class Locator:
         _check_arguments(image, label_size_mm)
         if code.mirrored:
             raise MirroredCodeError(f"The code {code.payload!r} is mirrored.")
-        known = _known_modules(code)
-        starts = start_poses(self._camera, code.corners_px, label_size_mm)
-        reasons = ["its corners are not those of a square in front of the camera"]
-        fits: list[LabelPose] = []
-        for start in starts:
-            result = self._refine(image, code.payload, known, start.T_camera_label, label_size_mm)
-            if isinstance(result, str):
-                reasons.append(result)
-            else:
-                fits.append(result)
+        modules = _known_modules(code)
+        found: LabelPose | None = None
+        rejection = PoseRejectedError("The corners are not those of a square before the camera.")
+        for start in start_poses(self._camera, code.corners_px, label_size_mm):
+            try:
+                fit = self._refine(
+                    image, code.payload, modules, start.T_camera_label, label_size_mm
+                )
+            except PoseRejectedError as error:
+                rejection = error
+                continue
+            if found is None or fit.rms_px < found.rms_px:
+                found = fit
+            if found.rms_px < UNDOUBTED_RMS_PX:
                 break
-        if not fits:
-            detail = f"The code {code.payload!r} was read, but not located: {reasons[-1]}."
-            raise PoseRejectedError(detail)
-        self._last, self._tracked = Code(code.payload, code.corners_px, known, mirrored=False), 0
-        return fits[0]
+        if found is None:
+            raise rejection
+        self._last, self._tracked = _LastCode(code.payload, modules), 0
+        return found
 
     def coarse(self, code: Code, label_size_mm: float) -> LabelPose:
         """Pose from the four corners alone, for codes whose edges do not fit (bent, damaged).
@@ -171,11 +165,12 @@ class Locator:
             return None
         if expected_payload not in {None, last.payload}:
             return None
-        result = self._refine(image, last.payload, last.modules, predicted, label_size_mm)
-        if isinstance(result, str):
+        try:
+            found = self._refine(image, last.payload, last.modules, predicted, label_size_mm)
+        except PoseRejectedError:
             return None
         self._tracked += 1
-        return result
+        return found
 
     def _refine(
         self,
@@ -184,16 +179,18 @@ class Locator:
         modules: NDArray[np.bool_],
         start: Pose,
         label_size_mm: float,
-    ) -> LabelPose | str:
-        """Fit from a start pose; the sentence tells why it was rejected."""
+    ) -> LabelPose:
+        """Fit from a start pose.
+
+        Raises:
+            PoseRejectedError: the fit does not settle or fails a gate.
+        """
         edges = code_edges(modules, label_size_mm)
         at_start = bit_agreement(image, self._camera, modules, start, label_size_mm)
         fit = fit_edges(image, self._camera, edges, start, inverted=at_start < 0.4)
         if fit is None:
-            return "too few of its edges are visible, or the fit does not settle"
-        problem = self._problem(image, modules, fit, label_size_mm)
-        if problem is not None:
-            return problem
+            raise PoseRejectedError("Too few edges are visible, or the fit does not settle.")
+        self._gates.check(fit, image, self._camera, modules, label_size_mm)
         return LabelPose(
             payload=payload,
             T_camera_label=fit.T_camera_label,
@@ -203,30 +200,6 @@ class Locator:
             edge_count=fit.edge_count,
             spread_px=fit.spread_px,
         )
-
-    def _problem(
-        self, image: Image, modules: NDArray[np.bool_], fit: EdgeFit, label_size_mm: float
-    ) -> str | None:
-        """Name the first gate that a fit fails."""
-        pose, gates = fit.T_camera_label, self._gates
-        corners = project(self._camera, pose, corners_mm(label_size_mm)).pixels
-        height, width = image.shape
-        inside = (corners >= 0) & (corners <= (width - 1, height - 1))
-        if pose[2, 3] <= 0 or pose[2, 2] <= 0 or not np.all(np.isfinite(pose)):
-            return "the fit put the label behind the camera"
-        if not np.all(inside):
-            return "the label is partly outside the picture"
-        side = float(np.mean(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)))
-        most_px = max(gates.rms_px, gates.rms_modules * side / modules.shape[0])
-        if fit.rms_px > most_px:
-            return f"its edges are {fit.rms_px:.2f} px off, at most {most_px:.2f} px are allowed"
-        if fit.inlier_share < gates.inlier_share:
-            return f"only {fit.inlier_share:.0%} of the edges agree with it"
-        agreement = bit_agreement(image, self._camera, modules, pose, label_size_mm)
-        agreement = max(agreement, 1 - agreement)  # an inverted code agrees in nothing
-        if agreement < gates.bit_agreement:
-            return f"only {agreement:.0%} of the modules look as the code says"
-        return None
 
     def _check_size(self, image: Image) -> None:
         expected = (self._camera.height, self._camera.width)

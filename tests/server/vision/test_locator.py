@@ -15,7 +15,8 @@ from server.vision.errors import (
     PoseRejectedError,
     WrongPayloadError,
 )
-from server.vision.projection import perturbed
+from server.vision.projection import Array, perturbed
+from server.vision.start_pose import StartPose, start_poses
 from tests.server.vision.pictures import (
     OPTICS,
     PAYLOAD,
@@ -64,6 +65,19 @@ def test_oblique_labels_are_located(tilt_deg: tuple[float, float, float]) -> Non
     assert np.abs(error[3:5]).max() < 0.02
     assert abs(error[5]) < 0.05
     assert np.degrees(np.abs(error[:3]).max()) < 0.06
+
+
+def test_the_opposite_tilt_is_not_taken_for_the_right_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Far away both poses of the corners lead to a fit; the picture decides which is right."""
+    true = pose((40.0, -30.0, 620.0), (12.0, 0.0, 5.0))
+    image = picture(view(true))
+
+    def wrong_way_round(camera: CameraModel, corners_px: Array, size_mm: float) -> list[StartPose]:
+        return start_poses(camera, corners_px, size_mm)[::-1]
+
+    monkeypatch.setattr("server.vision.locator.start_poses", wrong_way_round)
+    found = Locator(OPTICS).locate(image, label_size_mm=SIZE_MM)
+    assert np.degrees(np.abs(pose_error(found.T_camera_label, true)[:3]).max()) < 0.3
 
 
 def test_the_covariance_is_honest() -> None:
