@@ -5,12 +5,12 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import errno
-import gc
 import logging
 import math
+import signal
 import socket
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import uvicorn
 
@@ -29,6 +29,7 @@ PING_S = 20
 PING_TIMEOUT_S = 30
 SHUTDOWN_S = 2
 MAX_MESSAGE_BYTES = 1 << 20
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class PortInUseError(ConfigurationError):
@@ -95,13 +96,25 @@ class _Server(uvicorn.Server):
         self._address = address
         self._when_ready = when_ready
 
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """End in order at an interrupt.
+
+        After uvicorn's own the signal would kill the process before the robot has been stopped
+        and the database closed.
+        """
+        loop = asyncio.get_running_loop()
+        for number in SIGNALS:
+            loop.add_signal_handler(number, self.handle_exit, number, None)
+        try:
+            yield
+        finally:
+            for number in SIGNALS:
+                loop.remove_signal_handler(number)
+
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         if self.started:
-            # What was made while starting lives as long as the process: no need to look at it
-            # again at every collection.
-            gc.collect()
-            gc.freeze()
             print(f"PlugPilot is ready: {self._address}", flush=True)
             self._when_ready()
 
@@ -136,6 +149,7 @@ def _listen(host: str, port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
     try:
         listener.bind(address)
+        listener.listen()  # now, so that nobody else can take the port while we start
     except OSError as error:
         listener.close()
         if error.errno == errno.EADDRINUSE:

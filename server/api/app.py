@@ -11,7 +11,7 @@ from fastapi import APIRouter, FastAPI
 
 from server.api.contract import describe
 from server.api.pages import pages_router
-from server.api.problems import install_handlers
+from server.api.problems import ANY_PROBLEM, install_handlers
 from server.api.routes import camera, health, jobs, live, robot, station, vehicles
 from server.api.twin import twin_router
 from server.services import Services
@@ -47,7 +47,7 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
-    api = APIRouter(prefix=PREFIX)
+    api = APIRouter(prefix=PREFIX, responses=ANY_PROBLEM)
     for module in (health, robot, jobs, vehicles, station, camera, live):
         api.include_router(module.router)
     app.include_router(api)

@@ -20,14 +20,18 @@ _log = logging.getLogger(__name__)
 MEDIA_TYPE = "application/problem+json"
 
 
+_CONTENT = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+
+ANY_PROBLEM: dict[int | str, dict[str, Any]] = {
+    "default": {"description": "Any other problem", "content": _CONTENT}
+}
+"""What every operation documents: whatever goes wrong, the answer has this form."""
+
+
 def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """What an operation documents about its errors."""
-    schema = {"$ref": "#/components/schemas/Problem"}
+    """What an operation documents about its own errors."""
     return {
-        status: {
-            "description": HTTPStatus(status).phrase,
-            "content": {MEDIA_TYPE: {"schema": schema}},
-        }
+        status: {"description": HTTPStatus(status).phrase, "content": _CONTENT}
         for status in statuses
     }
 
@@ -77,6 +81,8 @@ def _on_http_error(request: Request, error: Exception) -> Response:
     where = f"{request.method} {request.url.path}"
     headers = dict(error.headers or {})
     match error.status_code:
+        case 400:  # FastAPI's word for a body that its JSON reader gave up on
+            return respond(MalformedJsonError("The body cannot be read as JSON."), headers)
         case 404:
             return respond(NotFoundError(f"{where}: there is nothing at this address."), headers)
         case 405:
@@ -96,4 +102,4 @@ def _on_http_error(request: Request, error: Exception) -> Response:
 
 def _on_surprise(request: Request, error: Exception) -> Response:
     _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
-    return respond(InternalError(f"{type(error).__name__}. The log has the details."))
+    return respond(InternalError("The request could not be carried out. The log has the details."))

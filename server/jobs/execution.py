@@ -96,7 +96,7 @@ class Execution:
         try:
             await asyncio.wait({work})
         except asyncio.CancelledError:  # PlugPilot itself is ending
-            work.cancel()
+            self._interrupt()
             await asyncio.wait({work})
             raise
         if work.cancelled():
@@ -108,7 +108,8 @@ class Execution:
         return _surprise(self.job)
 
     def _interrupt(self) -> None:
-        if self._work is not None:
+        # Once only: a second time would interrupt the phase while it brings the robot to rest.
+        if self._work is not None and not self._work.cancelling():
             self._work.cancel()
 
     def _where_it_is(self) -> str:

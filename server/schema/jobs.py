@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from server.jobs.model import JobPhase, JobState, JobType
 from server.schema.base import Timestamp, VehicleId, Wire
@@ -21,6 +21,12 @@ class JobRequest(Wire):
     target_energy_wh: Annotated[float, Field(gt=0, le=200_000, allow_inf_nan=False)] | None = Field(
         default=None, description="Charge: stop after this much energy; null: until full"
     )
+
+    @model_validator(mode="after")
+    def _energy_is_for_charging(self) -> Self:
+        if self.target_energy_wh is not None and self.type is not JobType.CHARGE:
+            raise ValueError("target_energy_wh is for charge jobs only")
+        return self
 
 
 class JobResult(Wire):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator
+import contextlib
+from collections.abc import AsyncGenerator
 
 from fastapi import APIRouter, Response
 from fastapi.responses import StreamingResponse
@@ -56,7 +57,7 @@ async def stream(services: ServicesDep) -> StreamingResponse:
     )
 
 
-async def _parts(feed: CameraFeed) -> AsyncIterator[bytes]:
+async def _parts(feed: CameraFeed) -> AsyncGenerator[bytes]:
     async for picture in feed.stream():
         yield (
             b"--%s\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n%s\r\n"
@@ -64,10 +65,13 @@ async def _parts(feed: CameraFeed) -> AsyncIterator[bytes]:
         )
 
 
-async def _from(first: bytes, rest: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
-    yield first
-    try:
-        async for part in rest:
-            yield part
-    except CameraError:
-        return  # the stream ends, which a browser shows as a broken picture
+async def _from(first: bytes, rest: AsyncGenerator[bytes]) -> AsyncGenerator[bytes]:
+    # Closed by hand: a viewer who has gone must not keep the camera at work until the garbage
+    # collector finds the generator.
+    async with contextlib.aclosing(rest):
+        yield first
+        try:
+            async for part in rest:
+                yield part
+        except CameraError:
+            return  # the stream ends, which a browser shows as a broken picture

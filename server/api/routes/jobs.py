@@ -60,12 +60,7 @@ async def list_jobs(
     limit: Annotated[int, Query(ge=1, le=100)] = 20,
 ) -> JobPage:
     """Jobs, newest first."""
-    if cursor is not None:
-        try:
-            UUID(cursor)
-        except ValueError:
-            raise InvalidCursorError(f"{cursor!r} is not a cursor of this list.") from None
-    jobs = await services.jobs.page(before=cursor, limit=limit + 1)
+    jobs = await services.jobs.page(before=_job_id_in(cursor), limit=limit + 1)
     more = len(jobs) > limit
     return JobPage(items=jobs[:limit], next_cursor=jobs[limit - 1].id if more else None)
 
@@ -107,3 +102,13 @@ async def list_events(job_id: JobId, services: ServicesDep) -> JobEvents:
     if await services.jobs.get(job_id) is None:
         raise JobNotFoundError(f"There is no job {job_id}.", job_id=job_id)
     return JobEvents(items=await services.jobs.events(job_id))
+
+
+def _job_id_in(cursor: str | None) -> str | None:
+    """The cursor in the one spelling that sorts among the ids."""
+    if cursor is None:
+        return None
+    try:
+        return str(UUID(cursor))
+    except ValueError:
+        raise InvalidCursorError(f"{cursor!r} is not a cursor of this list.") from None

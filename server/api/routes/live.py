@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Coroutine
+from typing import Any
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
 from server.api.dependencies import ServicesDep
 from server.api.errors import InvalidRequestError
-from server.errors import PlugPilotError
+from server.errors import InternalError, PlugPilotError
 from server.schema.live import (
     ClientMessage,
     EmergencyStopMessage,
@@ -32,6 +34,8 @@ _CLIENT_MESSAGE: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
 
 POLICY_VIOLATION = 1008
 MAX_INVALID = 20
+MAX_UNANSWERED = 50
+"""A client that sends so much without reading the answers is sent away."""
 
 
 @router.websocket("/ws")
@@ -41,8 +45,16 @@ async def live(socket: WebSocket, services: ServicesDep) -> None:
     await _Connection(socket, services).serve()
 
 
+class _GoneError(Exception):
+    """The other side has closed the socket, or it broke."""
+
+
 class _Connection:
-    """One page, script or phone."""
+    """One page, script or phone.
+
+    Every message is dealt with in a task of its own, begun in the order of arrival: a stop waits
+    neither for a step that is under way nor for a phone that is slow to take an answer.
+    """
 
     def __init__(self, socket: WebSocket, services: Services) -> None:
         self._socket = socket
@@ -50,44 +62,56 @@ class _Connection:
         self._sending = asyncio.Lock()
         self._pushing: asyncio.Task[None] | None = None
         self._jogging = False
-        self._steps: set[asyncio.Task[None]] = set()
+        self._errands: set[asyncio.Task[None]] = set()
+        self._stops: set[asyncio.Task[None]] = set()
 
     async def serve(self) -> None:
         self._restart_pushing()
         try:
             await self._receive()
-        except (WebSocketDisconnect, RuntimeError):
-            pass  # RuntimeError: Starlette's word for a socket that closed under our hands
+        except _GoneError:
+            _log.debug("a watcher has gone")
         finally:
             if self._jogging:
                 self._services.jog.release()
-            tasks = [*self._steps, *([self._pushing] if self._pushing else [])]
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            await self._clear_up()
+
+    async def _clear_up(self) -> None:
+        """Whoever has gone gets no answers and moves nothing, but a stop is carried out."""
+        cancelled = [*self._errands, *([self._pushing] if self._pushing else [])]
+        for task in cancelled:
+            task.cancel()
+        await asyncio.gather(*cancelled, *self._stops, return_exceptions=True)
 
     async def _receive(self) -> None:
         invalid = 0
-        while invalid < MAX_INVALID:
-            text = await self._socket.receive_text()
+        while invalid < MAX_INVALID and len(self._errands) + len(self._stops) < MAX_UNANSWERED:
+            raw = await self._next()
             try:
-                message = _CLIENT_MESSAGE.validate_json(text)
+                message = _CLIENT_MESSAGE.validate_json(raw)
             except ValidationError as error:
                 invalid += 1
                 detail = f"The message does not fit: {error.errors()[0]['msg']}."
-                await self._reply(0, InvalidRequestError(detail))
+                self._begin(self._errands, self._reply(0, InvalidRequestError(detail)))
                 continue
-            await self._handle(message)
+            is_stop = isinstance(message, StopMessage | EmergencyStopMessage)
+            self._begin(self._stops if is_stop else self._errands, self._answer(message))
         await self._socket.close(POLICY_VIOLATION, "too many messages that do not fit")
 
-    async def _handle(self, message: ClientMessage) -> None:
-        if isinstance(message, JogStepMessage):
-            # A step takes its time; a stop behind it must not wait for it.
-            step = asyncio.create_task(self._answer(message))
-            self._steps.add(step)
-            step.add_done_callback(self._steps.discard)
-        else:
-            await self._answer(message)
+    async def _next(self) -> str | bytes:
+        try:
+            event = await self._socket.receive()
+        except RuntimeError as error:  # Starlette's word for a socket that is closed already
+            raise _GoneError from error
+        if event["type"] != "websocket.receive":
+            raise _GoneError
+        text: str | None = event.get("text")
+        return text if text is not None else bytes(event["bytes"])
+
+    def _begin(self, tasks: set[asyncio.Task[None]], errand: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(self._until_gone(errand))
+        tasks.add(task)
+        task.add_done_callback(tasks.discard)
 
     async def _answer(self, message: ClientMessage) -> None:
         error: PlugPilotError | None = None
@@ -95,6 +119,9 @@ class _Connection:
             await self._carry_out(message)
         except PlugPilotError as caught:
             error = caught
+        except Exception:  # noqa: BLE001 - logged; the connection, and its stops, must go on
+            _log.exception("the message %s failed", message.type)
+            error = InternalError("The message could not be carried out. The log has the details.")
         if message.id is not None:
             await self._reply(message.id, error)
 
@@ -120,14 +147,11 @@ class _Connection:
     def _restart_pushing(self) -> None:
         if self._pushing is not None:
             self._pushing.cancel()
-        self._pushing = asyncio.create_task(self._push(), name="live push")
+        self._pushing = asyncio.create_task(self._until_gone(self._push()), name="live push")
 
     async def _push(self) -> None:
-        try:
-            async for message in self._services.live.watch():
-                await self._send(message.decode())
-        except (WebSocketDisconnect, RuntimeError):
-            return  # the receiving side notices too and cleans up
+        async for message in self._services.live.watch():
+            await self._send(message.decode())
 
     async def _reply(self, message_id: int, error: PlugPilotError | None) -> None:
         reply = ReplyMessage(
@@ -137,4 +161,14 @@ class _Connection:
 
     async def _send(self, text: str) -> None:
         async with self._sending:
-            await self._socket.send_text(text)
+            try:
+                await self._socket.send_text(text)
+            except (WebSocketDisconnect, RuntimeError) as error:
+                raise _GoneError from error
+
+    @staticmethod
+    async def _until_gone(errand: Coroutine[Any, Any, None]) -> None:
+        try:
+            await errand
+        except _GoneError:
+            return  # the receiving side notices too and clears up
