@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Awaitable
+from functools import partial
 from typing import Literal
 
 from server.control.errors import ControlError, MotionOutOfReachError
 from server.control.lease import Lease
+from server.control.motion import Motion
 from server.control.supervisor import Supervisor
 from server.errors import PlugPilotError
 from twin.errors import TwinError
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition, TipPosition
-from twin.kinematics import KinematicsError, gamma
+from twin.kinematics import KinematicsError, SingularityLimits, gamma, singularity
 from twin.motion import JointLimits, MotionLimits, MotionPlan, plan_joint_move, plan_straight_line
 
 _log = logging.getLogger(__name__)
@@ -25,7 +26,8 @@ DEAD_MAN_S = 0.25
 """Silence after which a held button counts as released."""
 
 LIMIT_MARGIN_MM = 0.5
-SEARCH_STEP_MM = 5.0
+FIRST_STRIDE_MM = 8.0
+LAST_STRIDE_MM = 0.25
 
 _JOINT_OF = {"rho1": 0, "rho2": 1, "rho3": 2, "insertion": 2}
 
@@ -42,7 +44,7 @@ class Jog:
         self._supervisor = supervisor
         self._dead_man_s = dead_man_s
         self._task: asyncio.Task[None] | None = None
-        self._direction: tuple[Axis, int] | None = None
+        self._held: tuple[Axis, int] | None = None
         self._deadline: asyncio.TimerHandle | None = None
 
     async def step(self, axis: Axis, distance_mm: float, speed_mm_s: float) -> None:
@@ -57,14 +59,17 @@ class Jog:
     def hold(self, axis: Axis, direction: int, speed_mm_s: float) -> None:
         """The button is held: begin to move, or go on.
 
+        Another axis or direction first stops the motion; it begins with the next call after
+        the robot has come to rest.
+
         Raises:
             ControlError: somebody else has control, or the robot may not or cannot go there.
         """
-        if self._task is not None and not self._task.done():
-            if self._direction != (axis, direction):
+        if self._task is not None:
+            if self._held == (axis, direction):
+                self._restart_timer()
+            else:
                 self.release()
-                return
-            self._restart_timer()
             return
         lease = self._supervisor.acquire("jog", "A technician")
         try:
@@ -74,46 +79,53 @@ class Jog:
         except BaseException:
             self._supervisor.give_back(lease)
             raise
-        self._direction = (axis, direction)
-        self._task = asyncio.create_task(self._move(lease, self._supervisor.run(motion)))
+        self._held = (axis, direction)
+        self._task = asyncio.create_task(self._move(motion), name="jog")
+        # Not in the task: one that is cancelled before its first step never runs.
+        self._task.add_done_callback(partial(self._ended, lease))
         self._restart_timer()
 
     def release(self) -> None:
         """The button was released, or its owner has gone: stop now."""
-        if self._deadline is not None:
-            self._deadline.cancel()
-            self._deadline = None
-        if self._task is not None:
+        self._stop_timer()
+        if self._held is not None and self._task is not None:
+            self._held = None
             self._task.cancel()
 
     async def wait_stopped(self) -> None:
         """Wait until the held motion has come to rest."""
         if self._task is not None:
-            await asyncio.gather(self._task, return_exceptions=True)
+            await asyncio.wait([self._task])
 
-    async def _move(self, lease: Lease, run: Awaitable[object]) -> None:
+    async def _move(self, motion: Motion) -> None:
         try:
-            await run
+            await self._supervisor.run(motion)
         except PlugPilotError as error:
             _log.warning("jogging ended: %s", error.detail)
-        finally:
-            self._supervisor.give_back(lease)
+
+    def _ended(self, lease: Lease, task: asyncio.Task[None]) -> None:
+        self._task = self._held = None
+        self._stop_timer()
+        self._supervisor.give_back(lease)
+        if not task.cancelled() and task.exception() is not None:
+            _log.error("jogging broke down", exc_info=task.exception())
 
     def _restart_timer(self) -> None:
-        if self._deadline is not None:
-            self._deadline.cancel()
+        self._stop_timer()
         loop = asyncio.get_running_loop()
         self._deadline = loop.call_later(self._dead_man_s, self.release)
+
+    def _stop_timer(self) -> None:
+        if self._deadline is not None:
+            self._deadline.cancel()
+            self._deadline = None
 
     def _plan(self, axis: Axis, distance_mm: float, speed_mm_s: float) -> MotionPlan:
         supervisor = self._supervisor
         start = supervisor.telemetry.require().commanded.position
         try:
             if axis in _JOINT_OF:
-                joint = _JOINT_OF[axis]
-                target = JointPosition(
-                    *(q + (distance_mm if i == joint else 0.0) for i, q in enumerate(start))
-                )
+                target = _further(supervisor.geometry, start, axis, distance_mm)
                 return plan_joint_move(_at_most(supervisor.limits, speed_mm_s), start, target)
             tip = _shifted(gamma.forward(supervisor.geometry, start), axis, distance_mm)
             return plan_straight_line(
@@ -124,32 +136,41 @@ class Jog:
 
     def _way_left_mm(self, axis: Axis, direction: int) -> float:
         """How far the axis can go in a direction, less a margin [mm]."""
-        supervisor = self._supervisor
-        start = supervisor.telemetry.require().commanded.position
-        if axis in _JOINT_OF:
-            joint = _JOINT_OF[axis]
-            travel = supervisor.geometry.joint_ranges[joint]
-            end = travel.max_mm if direction > 0 else travel.min_mm
-            way_mm = abs(end - start[joint]) - LIMIT_MARGIN_MM
-        else:
-            way_mm = _straight_way_mm(supervisor.geometry, start, axis, direction)
-        if way_mm <= 0:
+        geometry = self._supervisor.geometry
+        start = self._supervisor.telemetry.require().commanded.position
+        way_mm, stride_mm = 0.0, FIRST_STRIDE_MM
+        while stride_mm >= LAST_STRIDE_MM:
+            if _can_stand(geometry, start, axis, direction * (way_mm + stride_mm)):
+                way_mm += stride_mm
+            else:
+                stride_mm /= 2
+        if way_mm <= LIMIT_MARGIN_MM:
             raise MotionOutOfReachError(f"{axis} is at the end of its travel.", axis=axis)
-        return way_mm
+        return way_mm - LIMIT_MARGIN_MM
 
 
-def _straight_way_mm(
-    geometry: RobotGeometry, start: JointPosition, axis: Axis, direction: int
-) -> float:
-    tip = gamma.forward(geometry, start)
-    way_mm = 0.0
-    while way_mm < geometry.base_width_mm:
-        try:
-            gamma.inverse(geometry, _shifted(tip, axis, direction * (way_mm + SEARCH_STEP_MM)))
-        except KinematicsError:
-            break
-        way_mm += SEARCH_STEP_MM
-    return way_mm - LIMIT_MARGIN_MM
+def _can_stand(
+    geometry: RobotGeometry, start: JointPosition, axis: Axis, distance_mm: float
+) -> bool:
+    """Whether the robot can be that much further along an axis."""
+    try:
+        joints = _further(geometry, start, axis, distance_mm)
+        gamma.check_joint_limits(geometry, joints)
+        singularity.check(geometry, joints, SingularityLimits())
+    except KinematicsError:
+        return False
+    return True
+
+
+def _further(
+    geometry: RobotGeometry, start: JointPosition, axis: Axis, distance_mm: float
+) -> JointPosition:
+    """Joints that much further along an axis."""
+    if axis in _JOINT_OF:
+        joints = list(start)
+        joints[_JOINT_OF[axis]] += distance_mm
+        return JointPosition(*joints)
+    return gamma.inverse(geometry, _shifted(gamma.forward(geometry, start), axis, distance_mm))
 
 
 def _shifted(tip: TipPosition, axis: Axis, distance_mm: float) -> TipPosition:

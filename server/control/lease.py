@@ -8,7 +8,7 @@ from server.timing import Calendar
 
 
 class Lease:
-    """Proof of control. Ends when it is given back or taken away."""
+    """Proof of control until it is given back."""
 
     def __init__(self, holder: Holder) -> None:
         self.holder = holder

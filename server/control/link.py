@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import logging
 from collections.abc import Awaitable, Callable
 
-from drivers.robot import RobotDriver, RobotDriverError, RobotIdentity, RobotState
+from drivers.robot import RobotDriver, RobotDriverError, RobotIdentity, RobotState, StopCategory
 from server.control.telemetry import Telemetry
 
 _log = logging.getLogger(__name__)
 
 RECONNECT_S = 1.0
+
+OnSample = Callable[[RobotState], Awaitable[None]]
 
 
 class RobotLink:
@@ -31,8 +32,8 @@ class RobotLink:
         driver: RobotDriver,
         telemetry: Telemetry,
         *,
-        on_connected: Callable[[RobotState], Awaitable[None]],
-        on_sample: Callable[[RobotState], None],
+        on_connected: OnSample,
+        on_sample: OnSample,
         on_lost: Callable[[], None],
     ) -> None:
         self.identity: RobotIdentity | None = None
@@ -47,15 +48,14 @@ class RobotLink:
     async def start(self) -> None:
         """Begin connecting; returns after the first attempt, whether it worked or not."""
         self._task = asyncio.create_task(self._run(), name="robot link")
-        self._task.add_done_callback(self._report_crash)
         await self._attempted.wait()
 
     async def close(self) -> None:
-        """Stop the robot and let go of it."""
+        """Stop the robot and let go of it; whoever waits for telemetry learns that it ended."""
         if self._task is not None:
             self._task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._task
+            await asyncio.wait([self._task])
+        self._lose()
         await self._driver.close()
 
     async def _run(self) -> None:
@@ -65,8 +65,11 @@ class RobotLink:
                 await self._read()
             except RobotDriverError as error:
                 _log.warning("no link to the motion board: %s", error)
-            self._telemetry.lose()
-            self._on_lost()
+            except Exception:  # noqa: BLE001 - such as a full disk; it is logged
+                # Without anybody who watches it, the robot must stand still.
+                _log.exception("the link to the motion board broke down; connecting anew")
+                await self._stop_unwatched()
+            self._lose()
             self._attempted.set()
             await asyncio.sleep(RECONNECT_S)
 
@@ -78,11 +81,14 @@ class RobotLink:
                 await self._on_connected(state)
                 self._attempted.set()
                 first = False
-            self._on_sample(state)
+            await self._on_sample(state)
 
-    def _report_crash(self, task: asyncio.Task[None]) -> None:
-        if not task.cancelled() and task.exception() is not None:
-            _log.critical("the link to the motion board crashed", exc_info=task.exception())
-            self._telemetry.lose()
-            self._attempted.set()
-            self._on_lost()
+    async def _stop_unwatched(self) -> None:
+        try:
+            await self._driver.stop(StopCategory.DECELERATE_AND_HOLD)
+        except RobotDriverError as error:
+            _log.warning("the stop did not reach the motion board: %s", error)
+
+    def _lose(self) -> None:
+        self._telemetry.lose()
+        self._on_lost()

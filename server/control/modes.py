@@ -14,15 +14,6 @@ from server.control.errors import (
 from server.control.faults import words_for
 from server.control.model import RobotMode
 
-_FROM_BOARD = {
-    BoardState.BOOT: RobotMode.OFF,
-    BoardState.IDLE: RobotMode.OFF,
-    BoardState.HOMING: RobotMode.HOMING,
-    BoardState.RUN: RobotMode.MOVING,
-    BoardState.STOPPING: RobotMode.STOPPING,
-    BoardState.FAULT: RobotMode.FAULT,
-}
-
 
 def derive_mode(state: RobotState | None, *, stopped: bool, emergency: bool) -> RobotMode:
     """The mode that a person sees.
@@ -36,15 +27,23 @@ def derive_mode(state: RobotState | None, *, stopped: bool, emergency: bool) -> 
         return RobotMode.OFFLINE
     if emergency or (state.fault and state.fault.code is FaultCode.EMERGENCY_STOP):
         return RobotMode.EMERGENCY_STOP
-    if state.board is BoardState.FAULT:
-        return RobotMode.FAULT
-    if state.board is BoardState.STOPPING:
-        return RobotMode.STOPPING
-    if stopped:
-        return RobotMode.STOPPED
-    if state.board is BoardState.READY:
-        return RobotMode.READY if state.homed else RobotMode.NOT_HOMED
-    return _FROM_BOARD[state.board]
+    match state.board:
+        case BoardState.FAULT:
+            return RobotMode.FAULT
+        case BoardState.STOPPING:
+            return RobotMode.STOPPING
+        case BoardState.RUN | BoardState.HOMING if stopped:
+            return RobotMode.STOPPING  # the stop is on its way to the board
+        case _ if stopped:
+            return RobotMode.STOPPED
+        case BoardState.BOOT | BoardState.IDLE:
+            return RobotMode.OFF
+        case BoardState.HOMING:
+            return RobotMode.HOMING
+        case BoardState.RUN:
+            return RobotMode.MOVING
+        case BoardState.READY:
+            return RobotMode.READY if state.homed else RobotMode.NOT_HOMED
 
 
 def why_not_moving(mode: RobotMode, state: RobotState | None) -> ControlError | None:
@@ -54,8 +53,10 @@ def why_not_moving(mode: RobotMode, state: RobotState | None) -> ControlError | 
             return RobotOfflineError("The motion board does not answer.")
         case RobotMode.EMERGENCY_STOP:
             return EmergencyStoppedError("The emergency stop is latched.")
-        case RobotMode.STOPPED | RobotMode.STOPPING:
+        case RobotMode.STOPPED:
             return RobotStoppedError("Somebody stopped the robot, and the stop is still in force.")
+        case RobotMode.STOPPING:
+            return RobotStoppedError("The robot is being stopped and has not come to rest yet.")
         case RobotMode.FAULT:
             if state is not None and state.fault is not None:
                 return RobotFaultError(
@@ -69,3 +70,10 @@ def why_not_moving(mode: RobotMode, state: RobotState | None) -> ControlError | 
             return RobotNotReadyError("The robot does not know its position yet.")
         case RobotMode.READY | RobotMode.MOVING:
             return None
+
+
+def why_not_preparing(mode: RobotMode, state: RobotState | None) -> ControlError | None:
+    """The error that stands in the way of switching the drives on or homing, or None."""
+    if mode in {RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.HOMING}:
+        return None
+    return why_not_moving(mode, state)

@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-import logging
 from collections import deque
 from collections.abc import Callable
 
-from drivers.robot import (
-    BoardState,
-    RobotDriver,
-    RobotDriverError,
-    RobotIdentity,
-    RobotState,
-    StopCategory,
-)
-from server.control.errors import MotionRefusedError, RobotOfflineError
-from server.control.telemetry import Telemetry
+from drivers.robot import RobotIdentity, RobotState
+from server.control.board import MOVING, Board
+from server.control.errors import ControlError, MotionRefusedError
+from server.control.finishing import finish
 from twin.joints import JointAcceleration
 from twin.motion import JointState, MotionPlan, plan_segments
 from twin.motion.segments import Segment
-
-_log = logging.getLogger(__name__)
 
 LOOK_AHEAD = 8
 """Segments kept in the board: 160 ms rides out a busy computer and still lets a target change."""
@@ -32,7 +23,7 @@ IN_TRANSIT_S = 0.01
 ARRIVED_MM = 0.02
 
 Watch = Callable[[RobotState], None]
-"""Called with every sample while the motion runs; raising stops the motion."""
+"""Called with samples while the motion runs, the newest always; raising stops the motion."""
 
 Replan = Callable[[JointState], MotionPlan]
 """Makes a plan from a state that may be in motion."""
@@ -42,15 +33,9 @@ class Motion:
     """A motion that is being executed. Made by the supervisor; ``run`` may be awaited once."""
 
     def __init__(
-        self,
-        driver: RobotDriver,
-        identity: RobotIdentity,
-        telemetry: Telemetry,
-        plan: MotionPlan,
-        watch: Watch | None,
+        self, board: Board, identity: RobotIdentity, plan: MotionPlan, watch: Watch | None
     ) -> None:
-        self._driver = driver
-        self._telemetry = telemetry
+        self._board = board
         self._segment_s = identity.segment_s
         self._look_ahead = min(LOOK_AHEAD, identity.queue_capacity)
         self._capacity = identity.queue_capacity
@@ -86,36 +71,43 @@ class Motion:
         """Feed the board until the plan's end is reached; return the last sample.
 
         Whatever ends it early (interruption, a watch that raises, cancellation) stops the robot
-        with category 2 first.
-        """
-        state = self._telemetry.require()
-        arrived = False
-        try:
-            while not arrived:
-                await self._feed(state)
-                state = await self._telemetry.next()
-                self._check(state)
-                arrived = self._arrived(state)
-        except BaseException:
-            await asyncio.shield(self._halt())
-            raise
-        return state
+        with category 2 and waits for its rest first.
 
-    def _check(self, state: RobotState) -> None:
+        Raises:
+            ControlError: the board refused, stopped by itself, or went offline.
+        """
+        try:
+            state = self._board.telemetry.require()
+            self._obey_interruption()
+            while True:
+                await self._feed(state)
+                state = await self._board.telemetry.newer_than(state)
+                self._obey_interruption()
+                if self._watch is not None:
+                    self._watch(state)
+                if self._arrived(state):
+                    return state
+        except BaseException:
+            await finish(self._board.come_to_rest())
+            raise
+
+    def _obey_interruption(self) -> None:
         if self._interruption is not None:
             raise self._interruption
-        if self._watch is not None:
-            self._watch(state)
 
     def _arrived(self, state: RobotState) -> bool:
+        pushed_at_s = self._recent[-1][0] if self._recent else 0.0
+        if self._pending or state.board in MOVING or state.sampled_at_s <= pushed_at_s:
+            return False
         end = self._tail.end if self._tail else self._plan.end.position
-        return (
-            not self._pending
-            and state.board is BoardState.READY
-            and state.sampled_at_s > (self._recent[-1][0] if self._recent else 0.0)
-            and max(abs(a - b) for a, b in zip(state.commanded.position, end, strict=True))
-            < ARRIVED_MM
-        )
+        missing_mm = max(abs(a - b) for a, b in zip(state.commanded.position, end, strict=True))
+        if missing_mm < ARRIVED_MM:
+            return True
+        if state.sampled_at_s > pushed_at_s + IN_TRANSIT_S:
+            raise MotionRefusedError(
+                f"The motion board came to rest {missing_mm:.1f} mm before the end of the motion."
+            )
+        return False
 
     async def _feed(self, state: RobotState) -> None:
         in_board = self._capacity - state.queue_free + self._in_transit(state)
@@ -126,9 +118,10 @@ class Motion:
         self._tail = batch[-1]
         self._sent_of_plan_s += sum(segment.duration_s for segment in batch)
         try:
-            await self._driver.push(batch)
-        except RobotDriverError as error:
-            raise MotionRefusedError(f"The motion board refused the motion: {error}") from error
+            await self._board.command(lambda: self._board.driver.push(batch))
+        except ControlError:
+            self._obey_interruption()  # the reason behind the refusal, if there is one
+            raise
         self._recent.append((asyncio.get_running_loop().time(), len(batch)))
 
     def _in_transit(self, state: RobotState) -> int:
@@ -148,15 +141,3 @@ class Motion:
             if at_rest
             else self._plan.acceleration_at(self._sent_of_plan_s),
         )
-
-    async def _halt(self) -> None:
-        """Bring the robot to rest; a board that cannot be told stops by its own heartbeat."""
-        if self._telemetry.latest is None:
-            return
-        try:
-            await self._driver.stop(StopCategory.DECELERATE_AND_HOLD)
-            async with asyncio.timeout(1.0):
-                while self._telemetry.require().board in {BoardState.RUN, BoardState.STOPPING}:
-                    await self._telemetry.next()
-        except (RobotDriverError, RobotOfflineError, TimeoutError):
-            _log.exception("the robot could not be told to stop")

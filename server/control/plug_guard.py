@@ -6,16 +6,22 @@ is never more optimistic than the truth.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 from server.control.errors import LateralMotionForbiddenError
+from server.control.finishing import finish
 from server.control.model import PlugState
 from twin.joints import JointPosition
 
 LATERAL_TOLERANCE_MM = 0.05
-"""Motion of rho1 and rho2 that counts as none: below what the belts transmit."""
+"""Motion of rho1 and rho2 that counts as none: below what the belts transmit. It is counted from
+where the plug was held first, so that many small motions do not add up."""
+
+HELD = {PlugState.INSERTED, PlugState.UNKNOWN}
+"""The plug is, or may be, in a socket."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +78,10 @@ class PlugGuard:
         self._store = store
         self._changed = changed
         self._record = PlugRecord(PlugState.UNKNOWN, None)
+        self._on_disk: PlugRecord | None = None
+        self._writing = asyncio.Lock()
+        self._may_enter = False
+        self._held_at: JointPosition | None = None
 
     @property
     def state(self) -> PlugState:
@@ -85,16 +95,23 @@ class PlugGuard:
 
     async def recover(self) -> None:
         """Take up the last record. A new installation has never plugged anything in."""
-        self._record = await self._store.load() or PlugRecord(PlugState.FREE, None)
-        self._changed()
+        self._on_disk = await self._store.load()
+        self._take_over(self._on_disk or PlugRecord(PlugState.FREE, None))
 
     async def doubt(self) -> None:
         """The evidence contradicts the record: only a person or a withdrawal can settle it."""
         await self._write(PlugRecord(PlugState.UNKNOWN, None))
 
     async def about_to_enter(self, corridor: Corridor) -> None:
-        """The next motion may bring the plug into the socket."""
+        """The next motion, and only that one, may bring the plug into the socket."""
         await self._write(PlugRecord(PlugState.INSERTED, corridor))
+        self._may_enter = True
+
+    def motion_ended(self) -> None:
+        """If it was the motion into the socket: from now on only withdrawal is allowed."""
+        if self._may_enter:
+            self._may_enter = False
+            self._held_at = None
 
     async def is_free(self) -> None:
         """The plug is clear of every socket: measured, or confirmed by a person."""
@@ -119,32 +136,57 @@ class PlugGuard:
         Raises:
             LateralMotionForbiddenError: with the reason.
         """
-        if self.state in {PlugState.PARKED, PlugState.FREE}:
+        if self.state not in HELD:
             return
-        lateral_mm = max(
-            max(abs(q.rho1_mm - start.rho1_mm), abs(q.rho2_mm - start.rho2_mm)) for q in waypoints
-        )
+        held_at = self._hold(start)
         where = "in the socket" if self.state is PlugState.INSERTED else "at an unknown place"
-        if lateral_mm > LATERAL_TOLERANCE_MM:
+        lateral_mm = max(
+            max(abs(q.rho1_mm - held_at.rho1_mm), abs(q.rho2_mm - held_at.rho2_mm))
+            for q in waypoints
+        )
+        if not lateral_mm <= LATERAL_TOLERANCE_MM:
             raise LateralMotionForbiddenError(
                 f"The plug is {where}, and this motion goes {lateral_mm:.1f} mm sideways.",
                 plug=self.state.value,
                 lateral_mm=lateral_mm,
             )
-        deepest_mm = max(q.rho3_mm for q in waypoints)
-        allowed_mm = (
-            max(self.corridor.depth_rho3_mm, start.rho3_mm) if self.corridor else start.rho3_mm
-        )
-        if deepest_mm > allowed_mm + LATERAL_TOLERANCE_MM:
+        allowed_mm = held_at.rho3_mm
+        if self._may_enter and self.corridor is not None:
+            allowed_mm = self.corridor.depth_rho3_mm
+        excess_mm = max(q.rho3_mm for q in waypoints) - allowed_mm
+        if not excess_mm <= LATERAL_TOLERANCE_MM:
             raise LateralMotionForbiddenError(
-                f"The plug is {where}, and this motion pushes {deepest_mm - allowed_mm:.1f} mm "
-                "further in than allowed.",
+                f"The plug is {where}, and this motion pushes it {excess_mm:.1f} mm further in "
+                "than allowed.",
                 plug=self.state.value,
-                excess_mm=deepest_mm - allowed_mm,
+                excess_mm=excess_mm,
             )
 
+    def _hold(self, start: JointPosition) -> JointPosition:
+        """Where the plug is held: across the axis as at first, along it as far out as it was."""
+        if self._held_at is None:
+            self._held_at = start
+        elif start.rho3_mm < self._held_at.rho3_mm:
+            self._held_at = self._held_at._replace(rho3_mm=start.rho3_mm)
+        return self._held_at
+
     async def _write(self, record: PlugRecord) -> None:
+        # To the end even when the caller is cancelled: memory and disk must not part.
+        await finish(self._save(record))
+
+    async def _save(self, record: PlugRecord) -> None:
+        async with self._writing:
+            if record.state in HELD:
+                self._take_over(record)  # what forbids counts at once, what allows when on disk
+            if record != self._on_disk:
+                self._on_disk = None  # until the store has confirmed it
+                await self._store.save(record)
+                self._on_disk = record
+            self._take_over(record)
+
+    def _take_over(self, record: PlugRecord) -> None:
         if record != self._record:
-            await self._store.save(record)
             self._record = record
+            self._held_at = None
+            self._may_enter = False
             self._changed()

@@ -6,46 +6,39 @@ never refused.
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
-import logging
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Callable
 
 from drivers.robot import (
     BoardFault,
     BoardState,
     FaultCode,
     RobotDriver,
-    RobotDriverError,
     RobotState,
     StopCategory,
 )
+from server.control.board import Board
 from server.control.errors import (
     EmergencyStoppedError,
     LateralMotionForbiddenError,
-    MotionOutOfReachError,
-    MotionRefusedError,
-    RobotFaultError,
     RobotOfflineError,
     RobotStoppedError,
 )
+from server.control.evidence import settle_plug
+from server.control.latches import Latches
 from server.control.lease import Lease, LeaseDesk
 from server.control.link import RobotLink
-from server.control.model import Holder, HolderKind, PlugState, RobotMode
-from server.control.modes import derive_mode, why_not_moving
+from server.control.listeners import Listeners
+from server.control.model import Holder, HolderKind, RobotMode
+from server.control.modes import derive_mode, why_not_moving, why_not_preparing
 from server.control.motion import Motion, Watch
-from server.control.plug_guard import PlugGuard, PlugStore
+from server.control.path_check import check_path
+from server.control.plug_guard import HELD, PlugGuard, PlugStore
 from server.control.telemetry import Telemetry
 from server.timing import Calendar
-from twin.errors import TwinError
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
-from twin.motion import JointState, MotionLimits, MotionPlan, check_plan, plan_joint_move
-
-_log = logging.getLogger(__name__)
-
-CORRIDOR_TOLERANCE_MM = 0.5
-PATH_SAMPLES = 24
+from twin.motion import JointState, MotionLimits, MotionPlan, plan_joint_move
 
 
 class Supervisor:
@@ -72,15 +65,15 @@ class Supervisor:
         self.telemetry = Telemetry()
         self.plug = PlugGuard(plug_store, self._changed)
         self._driver = driver
+        self._board = Board(driver, self.telemetry, lambda: self.mode)
         self._desk = LeaseDesk(calendar)
-        self._stopped = False
-        self._emergency = False
+        self._latches = Latches()
         self._motion: Motion | None = None
-        self._listeners: list[Callable[[], None]] = []
+        self._listeners = Listeners()
         self._link = RobotLink(
             driver,
             self.telemetry,
-            on_connected=self._compare_plug_with_evidence,
+            on_connected=lambda state: settle_plug(self.plug, state, first=True),
             on_sample=self._take_sample,
             on_lost=self._changed,
         )
@@ -90,7 +83,11 @@ class Supervisor:
     @property
     def mode(self) -> RobotMode:
         """What the robot is doing."""
-        return derive_mode(self.telemetry.latest, stopped=self._stopped, emergency=self._emergency)
+        return derive_mode(
+            self.telemetry.latest,
+            stopped=self._latches.stopped,
+            emergency=self._latches.emergency,
+        )
 
     @property
     def holder(self) -> Holder | None:
@@ -110,7 +107,7 @@ class Supervisor:
 
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change, telemetry included."""
-        self._listeners.append(listener)
+        self._listeners.add(listener)
 
     # Life
 
@@ -130,17 +127,17 @@ class Supervisor:
 
     async def stop(self) -> None:
         """Protective stop: category 2, in force until ``reset``."""
-        self._stopped = True
+        self._latches.press_stop()
         self._interrupt(RobotStoppedError("Somebody pressed stop."))
         self._changed()
-        await self._tell_board_to_stop(self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
+        await self._board.tell_to_stop(lambda: self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
 
     async def emergency_stop(self) -> None:
         """Emergency stop: category 1, latched until ``reset``."""
-        self._emergency = True
+        self._latches.press_emergency_stop()
         self._interrupt(EmergencyStoppedError("Somebody pressed the emergency stop."))
         self._changed()
-        await self._tell_board_to_stop(self._driver.emergency_stop())
+        await self._board.tell_to_stop(self._driver.emergency_stop)
 
     async def reset(self) -> None:
         """Release stop, emergency stop and fault. Nothing moves by itself afterwards.
@@ -148,17 +145,15 @@ class Supervisor:
         Raises:
             RobotOfflineError: there is no link.
             RobotFaultError: the cause of the fault is still there.
+            RobotStoppedError: somebody pressed stop again meanwhile.
         """
-        state = self.telemetry.require()
-        if state.board is BoardState.FAULT:
-            try:
-                await self._driver.clear_fault()
-            except RobotDriverError as error:
-                raise RobotFaultError(f"The fault cannot be released: {error}") from error
-            await self._until(lambda sample: sample.board is not BoardState.FAULT)
-        self._stopped = False
-        self._emergency = False
+        presses = self._latches.presses
+        if self.telemetry.require().board is BoardState.FAULT:
+            await self._board.clear_fault()
+        released = self._latches.release(presses)
         self._changed()
+        if not released:
+            raise RobotStoppedError("Somebody pressed stop again while it was being released.")
 
     # Control
 
@@ -194,14 +189,14 @@ class Supervisor:
         """Switch the drives on."""
         lease.require()
         self._refuse_when_stopped()
-        await self._command(self._driver.enable())
-        await self._until(lambda state: state.enabled)
+        await self._board.command(self._driver.enable)
+        await self._board.until(lambda state: state.enabled)
 
     async def disable(self, lease: Lease) -> None:
         """Switch the drives off."""
         lease.require()
-        await self._command(self._driver.disable())
-        await self._until(lambda state: not state.enabled)
+        await self._board.command(self._driver.disable)
+        await self._board.until(lambda state: not state.enabled)
 
     async def home(self, lease: Lease) -> None:
         """Let the board find its zero. The plug retracts first, along the insertion axis.
@@ -209,7 +204,7 @@ class Supervisor:
         Raises:
             LateralMotionForbiddenError: the plug is not known to be free; see ``withdraw_home``.
         """
-        if self.plug.state in {PlugState.INSERTED, PlugState.UNKNOWN}:
+        if self.plug.state in HELD:
             raise LateralMotionForbiddenError(
                 "Homing moves sideways, and the plug is not known to be free.",
                 plug=self.plug.state.value,
@@ -221,22 +216,36 @@ class Supervisor:
 
         The board retracts the plug to its switch first, under the force limit, and moves
         sideways only when that succeeded. The caller has made sure that no current flows.
+        Whatever ends it early brings the robot to rest first.
         """
         lease.require()
         self._refuse_when_stopped()
-        await self._command(self._driver.home())
-        await self._until(lambda state: state.homed and state.board is BoardState.READY)
+        await self.plug.about_to_leave_park()
+        self._refuse_when_stopped()  # somebody may have pressed stop meanwhile
+        await self._board.home()
         await self.plug.is_free()
 
     async def halt(self, lease: Lease) -> None:
         """Bring the robot to rest (category 2) without latching anything."""
         lease.require()
-        await self._command(self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
+        await self._board.command(lambda: self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
+
+    async def release_stall(self, lease: Lease) -> None:
+        """Release the fault of a slide that pushed in vain, so that it can be drawn back.
+
+        Any other fault stays latched, and so does a stop: those are for a person to release.
+
+        Raises:
+            RobotFaultError: the board keeps the fault.
+        """
+        lease.require()
+        if self.fault is not None and self.fault.code is FaultCode.STALL:
+            await self._board.clear_fault()
 
     async def set_force_limit(self, lease: Lease, force_n: float) -> None:
         """Cap the insertion force on the board [N]."""
         lease.require()
-        await self._command(self._driver.set_force_limit(force_n))
+        await self._board.command(lambda: self._driver.set_force_limit(force_n))
 
     def start_motion(self, lease: Lease, plan: MotionPlan, watch: Watch | None = None) -> Motion:
         """Check a plan along its whole length and prepare its execution (``run``).
@@ -245,22 +254,22 @@ class Supervisor:
             ControlError: the robot is not ready, the plug forbids it, or it leaves the limits.
         """
         lease.require()
-        state = self.telemetry.latest
-        problem = why_not_moving(self.mode, state)
+        problem = why_not_moving(self.mode, self.telemetry.latest)
         if problem is not None:
             raise problem
         self._check(plan)
         if self._link.identity is None:
             raise RobotOfflineError("The motion board has not identified itself yet.")
-        self._motion = Motion(self._driver, self._link.identity, self.telemetry, plan, watch)
+        self._motion = Motion(self._board, self._link.identity, plan, watch)
         return self._motion
 
     async def run(self, motion: Motion) -> RobotState:
         """Execute a prepared motion to its end and return the last sample."""
-        await self.plug.about_to_leave_park()
         try:
+            await self.plug.about_to_leave_park()
             return await motion.run()
         finally:
+            self.plug.motion_ended()
             if self._motion is motion:
                 self._motion = None
 
@@ -294,81 +303,27 @@ class Supervisor:
     # Inside
 
     def _check(self, plan: MotionPlan) -> None:
-        step_s = plan.duration_s / PATH_SAMPLES
-        self.plug.check(
-            plan.start.position,
-            [plan.position_at(step_s * i) for i in range(1, PATH_SAMPLES + 1)],
-        )
-        try:
-            check_plan(self.geometry, plan)
-        except TwinError as error:
-            raise MotionOutOfReachError(str(error)) from error
+        check_path(self.geometry, self.plug, plan)
 
     def _refuse_when_stopped(self) -> None:
-        if self.mode in {RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.HOMING}:
-            return
-        problem = why_not_moving(self.mode, self.telemetry.latest)
+        problem = why_not_preparing(self.mode, self.telemetry.latest)
         if problem is not None:
             raise problem
-
-    async def _command(self, call: Awaitable[None]) -> None:
-        self.telemetry.require()
-        try:
-            await call
-        except RobotDriverError as error:
-            raise self._explain(error) from error
-
-    def _explain(self, error: RobotDriverError) -> Exception:
-        problem = why_not_moving(self.mode, self.telemetry.latest)
-        if problem is not None and self.mode in {
-            RobotMode.EMERGENCY_STOP,
-            RobotMode.STOPPED,
-            RobotMode.FAULT,
-            RobotMode.OFFLINE,
-        }:
-            return problem
-        return MotionRefusedError(f"The motion board refused: {error}")
-
-    async def _until(self, condition: Callable[[RobotState], bool]) -> None:
-        try:
-            async with asyncio.timeout(1.0):
-                while not condition(self.telemetry.require()):
-                    await self.telemetry.next()
-        except TimeoutError:
-            raise MotionRefusedError("The motion board did not do what it was told.") from None
-
-    async def _tell_board_to_stop(self, call: Awaitable[None]) -> None:
-        try:
-            await call
-        except RobotDriverError as error:
-            # The latch is set already, and a board without a link stops by its own heartbeat.
-            _log.warning("stop could not be sent: %s", error)
 
     def _interrupt(self, reason: Exception) -> None:
         if self._motion is not None:
             self._motion.interrupt(reason)
 
-    def _take_sample(self, state: RobotState) -> None:
+    async def _take_sample(self, state: RobotState) -> None:
         self._notice_fault(state)
+        await settle_plug(self.plug, state, first=False)
         self._changed()
-
-    async def _compare_plug_with_evidence(self, state: RobotState) -> None:
-        if self.plug.state is PlugState.PARKED and not state.homed:
-            await self.plug.is_free()
-        if self.plug.state is PlugState.INSERTED:
-            corridor = self.plug.corridor
-            if not (
-                state.homed
-                and corridor is not None
-                and corridor.holds(state.measured.position, CORRIDOR_TOLERANCE_MM)
-            ):
-                await self.plug.doubt()
 
     def _notice_fault(self, state: RobotState) -> None:
         if state.fault is None:
             return
         if state.fault.code is FaultCode.EMERGENCY_STOP:
-            self._emergency = True
+            self._latches.emergency = True
             self._interrupt(EmergencyStoppedError(state.fault.detail))
         else:
             problem = why_not_moving(RobotMode.FAULT, state)
@@ -376,5 +331,4 @@ class Supervisor:
                 self._interrupt(problem)
 
     def _changed(self) -> None:
-        for listener in self._listeners:
-            listener()
+        self._listeners.tell()

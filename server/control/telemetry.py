@@ -63,8 +63,21 @@ class Telemetry:
             self._next = asyncio.get_running_loop().create_future()
         return await asyncio.shield(self._next)
 
+    async def newer_than(self, known: RobotState) -> RobotState:
+        """The newest sample, as soon as it is another one than ``known``.
+
+        Raises:
+            RobotOfflineError: the link is down or goes down.
+        """
+        state = self.require()
+        return state if state is not known else await self.next()
+
     async def reach(self, time_s: float) -> RobotState:
-        """Wait for a sample taken at or after ``time_s`` (event loop time)."""
+        """Wait for a sample taken at or after ``time_s`` (event loop time).
+
+        Raises:
+            RobotOfflineError: the link is down or goes down.
+        """
         state = self.require()
         while state.sampled_at_s < time_s:
             state = await self.next()
