@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from collections.abc import AsyncIterator
 
 import cv2
@@ -32,7 +31,8 @@ class CameraFeed:
         self._newest: bytes | None = None
         self._news = asyncio.Condition()
         self._task: asyncio.Task[None] | None = None
-        self._error: CameraError | None = None
+        self._error: Exception | None = None
+        self._closed = False
 
     async def snapshot(self) -> bytes:
         """One new picture at full size, as JPEG.
@@ -40,25 +40,19 @@ class CameraFeed:
         Raises:
             CameraError: the camera does not deliver.
         """
-        try:
-            frame = await self._camera.frame()
-        except CameraError:
-            self.online = False
-            raise
-        self.online = True
-        return await asyncio.to_thread(_jpeg, frame.image)
+        return await asyncio.to_thread(_jpeg, await self._picture())
 
     async def stream(self) -> AsyncIterator[bytes]:
-        """JPEG pictures for one viewer, newest only; ends when the camera fails.
+        """JPEG pictures for one viewer, newest only; ends when the feed is closed.
 
         Raises:
             CameraError: the camera does not deliver.
         """
         self._viewers += 1
-        if self._task is None or self._task.done():
-            self._task = asyncio.create_task(self._produce(), name="camera feed")
         try:
-            while True:
+            while not self._closed:
+                if self._task is None or self._task.done():
+                    self._task = asyncio.create_task(self._produce(), name="camera feed")
                 async with self._news:
                     await self._news.wait()
                     picture, error = self._newest, self._error
@@ -70,27 +64,39 @@ class CameraFeed:
             self._viewers -= 1
 
     async def close(self) -> None:
-        """Stop the stream."""
+        """End all streams."""
+        self._closed = True
         if self._task is not None:
             self._task.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._task
+            await asyncio.wait([self._task])
+        self._newest = None
+        async with self._news:
+            self._news.notify_all()
 
     async def _produce(self) -> None:
-        self._error = None
+        """One picture after the other for as long as somebody looks and the camera delivers."""
+        self._newest = self._error = None
         loop = asyncio.get_running_loop()
-        while self._viewers and self._error is None:
+        while self._viewers:
             due_s = loop.time() + self._period_s
             try:
-                frame = await self._camera.frame()
-            except CameraError as error:
-                self.online, self._error = False, error
-            else:
-                self.online = True
-                self._newest = await asyncio.to_thread(_small_jpeg, frame.image)
+                self._newest = await asyncio.to_thread(_small_jpeg, await self._picture())
+            except Exception as error:  # noqa: BLE001 - handed to all who wait for the picture
+                self._error = error
             async with self._news:
                 self._news.notify_all()
+            if self._error is not None:
+                return
             await asyncio.sleep(due_s - loop.time())
+
+    async def _picture(self) -> NDArray[np.uint8]:
+        try:
+            frame = await self._camera.frame()
+        except CameraError:
+            self.online = False
+            raise
+        self.online = True
+        return frame.image
 
 
 def _small_jpeg(image: NDArray[np.uint8]) -> bytes:

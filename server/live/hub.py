@@ -69,9 +69,10 @@ class LiveHub:
     async def watch(self) -> AsyncIterator[bytes]:
         """Messages for one watcher: a snapshot first, then deltas, as JSON."""
         news = asyncio.Event()
-        self._watchers.add(news)
         try:
-            self._refresh()
+            # What is found to have changed here is news for those who watch already.
+            self._update_all()
+            self._watchers.add(news)
             seen = self._versions()
             sequence = 1
             yield self._snapshot(sequence)
@@ -95,6 +96,9 @@ class LiveHub:
     def _push(self) -> None:
         self._timer = None
         self._last_push_s = asyncio.get_running_loop().time()
+        self._update_all()
+
+    def _update_all(self) -> None:
         if self._refresh():
             for news in self._watchers:
                 news.set()
