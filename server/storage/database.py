@@ -8,26 +8,38 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
 
-from sqlalchemy import Engine, create_engine, event, text
+from sqlalchemy import Connection, Engine, create_engine, event, text
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
-from server.storage.errors import DatabaseBrokenError, DataFolderError, StorageError
+from server.storage.errors import (
+    DatabaseBrokenError,
+    DatabaseVersionError,
+    DataFolderError,
+    StorageError,
+)
 from server.storage.tables import Base
 
 T = TypeVar("T")
 
 FILE_NAME = "plugpilot.sqlite3"
 
+SCHEMA_VERSION = 1
+"""Kept in the file (PRAGMA user_version). Raise it with every change of the tables."""
+
 
 class Database:
     """Runs pieces of work, each in one transaction, off the event loop and in order.
 
-    A transaction that has returned is on disk (WAL with synchronous=FULL).
+    A transaction that has returned is on disk (WAL with synchronous=FULL). One whose caller is
+    cancelled runs to its end all the same.
 
     Args:
         folder: Where the file lives; made if missing. None keeps everything in memory.
+
+    Raises:
+        DataFolderError: the folder cannot be made.
     """
 
     def __init__(self, folder: Path | None) -> None:
@@ -42,6 +54,7 @@ class Database:
         Raises:
             DataFolderError: the folder or file cannot be written.
             DatabaseBrokenError: the file is damaged.
+            DatabaseVersionError: another version of PlugPilot made the file.
         """
         await self._in_worker(self._prepare)
 
@@ -66,8 +79,11 @@ class Database:
             with self._engine.begin() as connection:
                 verdict = connection.execute(text("PRAGMA quick_check")).scalar()
                 if verdict != "ok":
-                    raise DatabaseBrokenError(f"SQLite says: {verdict}", file=self._file)
-            Base.metadata.create_all(self._engine)
+                    raise DatabaseBrokenError(f"SQLite says: {verdict}.", file=self._file)
+                self._refuse_other_version(connection)
+                Base.metadata.create_all(connection)
+                # Writes at every start, so that a file that cannot be written is found now.
+                connection.execute(text(f"PRAGMA user_version = {SCHEMA_VERSION}"))
         except DBAPIError as error:
             if "not a database" in str(error.orig) or "malformed" in str(error.orig):
                 raise DatabaseBrokenError(
@@ -77,12 +93,24 @@ class Database:
                 f"{self._file} cannot be opened: {error.orig}.", file=self._file
             ) from error
 
+    def _refuse_other_version(self, connection: Connection) -> None:
+        version = connection.execute(text("PRAGMA user_version")).scalar_one()
+        if version not in {0, SCHEMA_VERSION}:
+            raise DatabaseVersionError(
+                f"{self._file} has version {version}; this PlugPilot reads version "
+                f"{SCHEMA_VERSION}.",
+                file=self._file,
+                version=version,
+            )
+
     def _transact(self, work: Callable[[Session], T]) -> T:
         try:
             with Session(self._engine, expire_on_commit=False) as session, session.begin():
                 return work(session)
+        except DBAPIError as error:
+            raise StorageError(f"SQLite says: {error.orig}.", file=self._file) from error
         except SQLAlchemyError as error:
-            raise StorageError(f"The database refused: {error}") from error
+            raise StorageError(f"The database refused: {error}", file=self._file) from error
 
     @property
     def _file(self) -> str:

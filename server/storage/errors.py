@@ -1,8 +1,9 @@
 """Errors of storage.
 
 StorageError
-├── DataFolderError      the data folder cannot be used
-└── DatabaseBrokenError  the database cannot be read
+├── DataFolderError       the data folder cannot be used
+├── DatabaseBrokenError   the database cannot be read
+└── DatabaseVersionError  another version of PlugPilot made the database
 """
 
 from __future__ import annotations
@@ -33,3 +34,11 @@ class DatabaseBrokenError(StorageError):
     code = "database_broken"
     title = "The database is damaged"
     remedy = "Move the file away and start again, or put a backup in its place."
+
+
+class DatabaseVersionError(StorageError):
+    """The database was made by another version of PlugPilot."""
+
+    code = "database_version"
+    title = "The database belongs to another version of PlugPilot"
+    remedy = "Use the version that made it, or move the file away and start again."
