@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 
 from drivers.camera import CameraDriver, CameraError, CameraModel, Frame
-from drivers.robot import BoardState
+from server.control.board import MOVING
 from server.control.telemetry import Telemetry
 from server.localisation.errors import CameraDownError
 from server.localisation.frames import Pose, base_from_camera, inverse
@@ -113,7 +113,7 @@ class Eye:
         )
 
     async def _camera_pose(self, frame: Frame) -> Pose:
-        if self._telemetry.require().board is BoardState.RUN:
+        if self._telemetry.require().board in MOVING:
             await self._telemetry.reach(frame.captured_at_s)
         joints = self._telemetry.joints_at(frame.captured_at_s)
         return base_from_camera(self._geometry, self.mount, joints)
