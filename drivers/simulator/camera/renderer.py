@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from threading import Lock
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,10 +18,11 @@ class Renderer:
     """Renders what a camera with the given true optics would see.
 
     Pixel centres are at integer coordinates. Edges are prefiltered, so a measured place is off
-    by what the measurement does wrong, not by the renderer. Not for several threads at once.
+    by what the measurement does wrong, not by the renderer. Threads wait for one another.
     """
 
     def __init__(self, optics: CameraModel, imaging: ImagingParameters, seed: int) -> None:
+        self._drawing = Lock()
         self._scene = SceneRenderer(optics, imaging)
         self._sensor = Sensor(optics, imaging, self._scene.grid, seed)
 
@@ -34,4 +37,5 @@ class Renderer:
         Returns:
             Grey values, shape (height, width).
         """
-        return self._sensor.expose(self._scene.render(view), sequence, dark=dark)
+        with self._drawing:  # a picture whose asker was cancelled may still be in the making
+            return self._sensor.expose(self._scene.render(view), sequence, dark=dark)
