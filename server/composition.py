@@ -68,7 +68,7 @@ async def running(
     """
     # One thread: on a Raspberry Pi the other cores belong to the robot, the pages and the twin.
     cv2.setNumThreads(1)
-    speed = settings.simulation.speed
+    speed = settings.clock_speed
     calendar = Calendar(speed)
     devices = _devices(settings)
     async with contextlib.AsyncExitStack() as stack:
@@ -222,7 +222,7 @@ def _service(services: Services) -> Service:
     return Service(
         version=VERSION,
         simulated=services.garage is not None,
-        speed=services.settings.simulation.speed,
+        speed=services.settings.clock_speed,
         camera_online=services.camera.online,
         started_at=services.started_at,
     )

@@ -62,8 +62,8 @@ def serve(settings: Settings) -> None:
     for chatty in ("uvicorn", "websockets"):
         logging.getLogger(chatty).setLevel(logging.WARNING)
     listener = _listen(settings.server.host, settings.server.port)
-    speed = settings.simulation.speed
-    factory = None if speed == 1 else lambda: ScaledTimeLoop(speed)
+    # A real robot keeps real time; a simulated one waits for a machine that is too slow.
+    factory = (lambda: ScaledTimeLoop(settings.clock_speed)) if settings.simulated else None
     with contextlib.closing(listener), asyncio.Runner(loop_factory=factory) as runner:
         runner.run(_serve(settings, listener))
 
@@ -78,7 +78,7 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
     )
     async with running(settings, folder=settings.storage.data_dir, twin=twin) as services:
         app = create_app(lambda: contextlib.nullcontext(services), twin)
-        config = _uvicorn_config(app, settings.simulation.speed)
+        config = _uvicorn_config(app, settings.clock_speed)
         server = _Server(config, _address(listener), when_ready=twin.start)
         try:
             await server.serve(sockets=[listener])

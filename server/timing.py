@@ -4,13 +4,14 @@ Everything that decides or moves takes its time from the running event loop, so 
 chooses how time passes:
 
 - a normal loop for a real robot,
-- ``ScaledTimeLoop`` to run the simulator faster (or slower) than real time in a browser,
+- ``ScaledTimeLoop`` for the simulator in a browser, at any speed the machine can keep up with,
 - ``VirtualTimeLoop`` to run a whole job in the time its computation takes.
 """
 
 from __future__ import annotations
 
 import asyncio
+import math
 import selectors
 import time
 from collections.abc import Callable, Mapping
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from _typeshed import FileDescriptorLike
 
 Ts = TypeVarTuple("Ts")
+
+
+MAX_HICCUP_S = 0.05
+"""Time that a scaled clock may lose at once: well below what a board has in its queue."""
 
 
 class NothingLeftToWaitForError(RuntimeError):
@@ -102,27 +107,46 @@ class VirtualTimeLoop(asyncio.SelectorEventLoop):
 
 
 class _ScaledSelector(_DelegatingSelector):
-    """Waits for ``timeout`` seconds of the scaled clock."""
+    """Waits for ``timeout`` seconds of the scaled clock, and keeps that clock.
+
+    What was waited for counts in full. What the machine lost on top of it, by a busy callback or
+    by waking up late, counts up to ``MAX_HICCUP_S`` only.
+    """
 
     def __init__(self, speed: float) -> None:
         super().__init__()
+        self.now_s = 0.0
         self._speed = speed
+        self._left_s = time.monotonic()
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
-        return super().select(None if timeout is None else timeout / self._speed)
+        self._advance(0.0)
+        ready = super().select(None if timeout is None else timeout / self._speed)
+        self._advance(math.inf if timeout is None else timeout)
+        return ready
+
+    def _advance(self, expected_s: float) -> None:
+        now_s = time.monotonic()
+        elapsed_s = (now_s - self._left_s) * self._speed
+        self._left_s = now_s
+        self.now_s += min(elapsed_s, expected_s + MAX_HICCUP_S)
 
 
 class ScaledTimeLoop(asyncio.SelectorEventLoop):
-    """An event loop whose clock runs ``speed`` times as fast as the wall clock."""
+    """The event loop of a simulated garage: its clock runs ``speed`` times the wall clock.
+
+    When the machine cannot keep up, time slows down instead of jumping: the simulated board
+    shares the process with everything else, and would otherwise see an empty queue that no real
+    board would have seen. Like libuv's, the clock stands still during a callback.
+    """
 
     def __init__(self, speed: float) -> None:
-        self._speed = speed
-        self._origin_s = time.monotonic()
-        super().__init__(_ScaledSelector(speed))
+        self._scaled = _ScaledSelector(speed)
+        super().__init__(self._scaled)
 
     def time(self) -> float:
         """Scaled time since the loop was made [s]."""
-        return (time.monotonic() - self._origin_s) * self._speed
+        return self._scaled.now_s
 
 
 class Calendar:
@@ -136,7 +160,6 @@ class Calendar:
     def __init__(self, speed: float = 1.0, loop: asyncio.AbstractEventLoop | None = None) -> None:
         self._loop = loop or asyncio.get_running_loop()
         self._speed = speed
-        self._origin_s = self._loop.time()
         self._origin = datetime.now(UTC)
 
     def now(self) -> datetime:
@@ -144,5 +167,8 @@ class Calendar:
         return self.at(self._loop.time())
 
     def at(self, loop_time_s: float) -> datetime:
-        """The date at an event loop time."""
-        return self._origin + timedelta(seconds=(loop_time_s - self._origin_s) / self._speed)
+        """The date at an event loop time, counted back from now: a slow clock does not add up."""
+        if isinstance(self._loop, VirtualTimeLoop):
+            return self._origin + timedelta(seconds=loop_time_s)
+        ago_s = (self._loop.time() - loop_time_s) / self._speed
+        return datetime.now(UTC) - timedelta(seconds=ago_s)

@@ -48,6 +48,16 @@ class Settings(BaseSettings):
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
 
+    @property
+    def simulated(self) -> bool:
+        """No real robot moves."""
+        return self.robot.driver == "simulator"
+
+    @property
+    def clock_speed(self) -> float:
+        """Seconds of the event loop per second of the wall clock: a real robot has no choice."""
+        return self.simulation.speed if self.simulated else 1.0
+
     @classmethod
     def settings_customise_sources(
         cls,
