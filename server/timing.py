@@ -11,7 +11,6 @@ chooses how time passes:
 from __future__ import annotations
 
 import asyncio
-import math
 import selectors
 import time
 from collections.abc import Callable, Mapping
@@ -25,8 +24,8 @@ if TYPE_CHECKING:
 Ts = TypeVarTuple("Ts")
 
 
-MAX_HICCUP_S = 0.05
-"""Time that a scaled clock may lose at once: well below what a board has in its queue."""
+MAX_LAG_S = 0.25
+"""Scaled time that a clock may be behind and still make up for."""
 
 
 class NothingLeftToWaitForError(RuntimeError):
@@ -107,29 +106,37 @@ class VirtualTimeLoop(asyncio.SelectorEventLoop):
 
 
 class _ScaledSelector(_DelegatingSelector):
-    """Waits for ``timeout`` seconds of the scaled clock, and keeps that clock.
+    """Keeps a clock that runs ``speed`` times the wall clock, but never past the next timer.
 
-    What was waited for counts in full. What the machine lost on top of it, by a busy callback or
-    by waking up late, counts up to ``MAX_HICCUP_S`` only.
+    A timer therefore always runs at the time it was set for, however late the machine is. What
+    the clock is behind it makes up by shorter waits; more than ``MAX_LAG_S`` it gives up.
     """
 
     def __init__(self, speed: float) -> None:
         super().__init__()
         self.now_s = 0.0
         self._speed = speed
-        self._left_s = time.monotonic()
+        self._origin_s = time.monotonic()
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
-        self._advance(0.0)
-        ready = super().select(None if timeout is None else timeout / self._speed)
-        self._advance(math.inf if timeout is None else timeout)
+        if timeout is None:
+            ready = super().select(None)
+            self.now_s = max(self.now_s, self._target_s())
+            return ready
+        timer_s = self.now_s + timeout
+        ready = super().select(max(0.0, (timer_s - self._target_s()) / self._speed))
+        self.now_s = min(timer_s, max(self.now_s, self._target_s())) if ready else timer_s
+        self._give_up_lag()
         return ready
 
-    def _advance(self, expected_s: float) -> None:
-        now_s = time.monotonic()
-        elapsed_s = (now_s - self._left_s) * self._speed
-        self._left_s = now_s
-        self.now_s += min(elapsed_s, expected_s + MAX_HICCUP_S)
+    def _target_s(self) -> float:
+        """Where the clock should be."""
+        return (time.monotonic() - self._origin_s) * self._speed
+
+    def _give_up_lag(self) -> None:
+        lost_s = self._target_s() - self.now_s - MAX_LAG_S
+        if lost_s > 0:
+            self._origin_s += lost_s / self._speed
 
 
 class ScaledTimeLoop(asyncio.SelectorEventLoop):
@@ -137,7 +144,7 @@ class ScaledTimeLoop(asyncio.SelectorEventLoop):
 
     When the machine cannot keep up, time slows down instead of jumping: the simulated board
     shares the process with everything else, and would otherwise see an empty queue that no real
-    board would have seen. Like libuv's, the clock stands still during a callback.
+    board would have seen. The clock stands still during a callback.
     """
 
     def __init__(self, speed: float) -> None:
