@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser
 
-from tests.browser.chromium import EXECUTABLE, chromium
+from tests.browser.chromium import chromium
 from tests.browser.stage import STATIC_DIR, Stage, serve
+from tests.support.chromium import require_chromium
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """The machine's Chromium."""
-    if not Path(EXECUTABLE).exists():
-        pytest.skip(f"needs {EXECUTABLE}")
+    require_chromium()
     with chromium() as running:
         yield running
 

@@ -157,7 +157,7 @@ export const words = {
     code: "no_vehicle",
     title: "No car is known yet",
     detail: "The robot finds a car by the label beside its socket.",
-    remedy: "Add a car first: plugpilot label prints its label.",
+    remedy: "Ask whoever looks after the robot to add your car.",
   },
   trouble: {
     remedy: "What to do:",
