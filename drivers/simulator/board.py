@@ -214,12 +214,22 @@ class SimulatedBoard:
         state = self.world.advance(now_s)
         if self.state in MOVING and self._find_fault(state, now_s):
             state = self.world.advance(now_s)
+        if self.state is BoardState.STOPPING and state.blocked_since_s is not None:
+            state = self._give_way(state, now_s)
         # a slide that pushes in vain has not arrived: it will move on, or stall
         in_vain = state.blocked_since_s is not None
         self._moving = in_vain or not state.steady or now_s < self.world.line.rests_from_s
         if not self._moving:
             self._come_to_rest()
         return state
+
+    def _give_way(self, state: PlantState, now_s: float) -> PlantState:
+        """Once a stop has come to rest, hold the slide where it is rather than push on."""
+        if now_s < self.world.line.rests_from_s:
+            return state
+        here = self.world.line.at(now_s).position
+        self.world.drive_to(here._replace(rho3_mm=state.motors.rho3_mm), now_s)
+        return self.world.advance(now_s)
 
     def _find_fault(self, state: PlantState, now_s: float) -> bool:
         """Latch what is wrong, if anything is."""
