@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
+from drivers.robot import FaultCode
 from server.control.errors import ForceLimitError, RobotFaultError
 from server.control.force_watch import ForceWatch
 from server.jobs.approach import corridor, lateral_error_mm
@@ -19,6 +20,7 @@ async def run(job: JobContext) -> None:
 
     Raises:
         InsertionJammedError: the force reached its limit before the plug was in.
+        RobotFaultError: the board stopped for another reason.
         InsertionDepthError: the plug came to rest at the wrong depth.
     """
     await job.journal.begin(JobPhase.INSERTING, "Pushing the plug in.")
@@ -36,6 +38,8 @@ async def run(job: JobContext) -> None:
     try:
         await supervisor.follow(job.lease, plan, forces.check)
     except (ForceLimitError, RobotFaultError) as error:
+        if not _is_jam(error):
+            raise
         depth_mm = supervisor.telemetry.require().measured.position.rho3_mm - way.face_rho3_mm
         raise InsertionJammedError(
             f"{error.detail} The plug was {depth_mm:.1f} mm deep of {settings.depth_mm:.0f} mm.",
@@ -61,3 +65,8 @@ async def run(job: JobContext) -> None:
             f"The plug is {depth_mm:.1f} mm deep instead of {settings.depth_mm:.0f} mm.",
             depth_mm=round(depth_mm, 2),
         )
+
+
+def _is_jam(error: ForceLimitError | RobotFaultError) -> bool:
+    """Whether the plug met too much resistance; any other fault is for a person to look at."""
+    return isinstance(error, ForceLimitError) or error.context.get("fault") == FaultCode.STALL.value

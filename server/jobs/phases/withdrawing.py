@@ -34,6 +34,8 @@ async def run(job: JobContext) -> None:
     """
     await job.journal.begin(JobPhase.WITHDRAWING, "Pulling the plug out.")
     supervisor, settings = job.supervisor, job.settings.insertion
+    # A plug that jammed on the way in may have made the board stall.
+    await supervisor.release_stall(job.lease)
     await supervisor.set_force_limit(job.lease, settings.withdrawal_force_limit_n)
     guard = _Guard(settings.withdrawal_force_limit_n)
     watching = asyncio.create_task(guard.watch_station(job.station), name="station watch")
