@@ -23,9 +23,6 @@ from twin.kinematics import LegsCannotCloseError, PlatformPosition, alpha, gamma
 ARRIVED_MM = 1e-5
 """A slide this near a resting set point no longer moves."""
 
-STANDSTILL_MM = 1e-4
-"""A slide that moves less in one step of the contact stands still: far below one encoder count."""
-
 
 class PlantState(NamedTuple):
     """The plant at one instant.
@@ -193,7 +190,7 @@ class Plant:
         free = self._push_slide(moved, around, slide_mm)
         moved, share = self._within_force(state, moved, free, around, slide_mm)
         travel_mm = moved.motors.rho3_mm - state.motors.rho3_mm
-        blocked = share < 1.0 and abs(travel_mm) < STANDSTILL_MM
+        blocked = share < 1.0
         since_s = state.t_s if state.blocked_since_s is None else state.blocked_since_s
         arrived = abs(moved.motors.rho3_mm - wanted.position.rho3_mm) < ARRIVED_MM
         steady = holding and (arrived or (blocked and travel_mm == 0.0))

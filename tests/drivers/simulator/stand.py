@@ -25,6 +25,7 @@ T = TypeVar("T")
 
 GEOMETRY = RobotGeometry()
 LIMITS = MotionLimits()
+LONGEST_SCENARIO_S = 3000.0
 
 
 def changed(parameters: SimulationParameters, group: str, **values: Any) -> SimulationParameters:  # noqa: ANN401 - any field
@@ -150,7 +151,8 @@ def on_stand(
         await garage.robot.enable()
         await garage.station.open()
         try:
-            return await scenario(Stand(garage))
+            async with asyncio.timeout(LONGEST_SCENARIO_S):
+                return await scenario(Stand(garage))
         finally:
             await garage.robot.close()
 

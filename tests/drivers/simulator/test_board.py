@@ -248,6 +248,17 @@ def test_a_jammed_slide_stalls() -> None:
     assert 0.1 < after_s < 0.3
 
 
+def test_a_slide_that_pushes_in_vain_at_the_end_of_its_way_stalls_too() -> None:
+    async def scenario(stand: Stand) -> RobotState:
+        stand.robot.jam()
+        # over before the stall can be noticed
+        return await stand.move(HOME._replace(rho3_mm=50.02))
+
+    state = on_stand(scenario)
+    assert state.fault is not None
+    assert state.fault.code is FaultCode.STALL
+
+
 def test_a_slide_far_behind_its_set_point_is_a_following_error() -> None:
     async def scenario(stand: Stand) -> RobotState:
         stand.robot.jam()
