@@ -100,7 +100,7 @@ class SimulatedBoard:
             raise QueueFullError(f"{len(segments)} segments were pushed into {free} free places.")
         _, position, velocity = self.world.line.queue_end(now_s)
         check_segments(segments, position, velocity, self.world)
-        self.world.line.append(now_s, segments)
+        self.world.follow(segments, now_s)
         self.state = BoardState.RUN
         self._moving = True
 
@@ -125,7 +125,7 @@ class SimulatedBoard:
         if category is StopCategory.DECELERATE_AND_RELEASE:
             self._release_when_stopped = True
         if self.state in {BoardState.RUN, BoardState.HOMING}:
-            self.world.line.brake(now_s)
+            self.world.brake(now_s)
             self.state = BoardState.STOPPING
         self.sync(now_s)
 
@@ -202,9 +202,9 @@ class SimulatedBoard:
             self.world.drive_to(here, now_s)
             self.homed = False
         elif code in {FaultCode.STALL, FaultCode.FOLLOWING_ERROR}:
-            self.world.line.brake(now_s, rho3_mm=state.motors.rho3_mm)
+            self.world.brake(now_s, rho3_mm=state.motors.rho3_mm)
         elif not self.world.line.ran_empty(now_s):
-            self.world.line.brake(now_s)
+            self.world.brake(now_s)
         if self.fault is None:
             self.fault = BoardFault(code, detail)
         self.state = BoardState.FAULT

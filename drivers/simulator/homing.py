@@ -118,7 +118,7 @@ class HomingRoutine:
         await self._until(lambda: self._pressed(joint) or self._at_rest())
         if not self._pressed(joint):
             self._fail(f"The limit switch of {JOINTS[joint]} was not found.")
-        self._world.line.brake(self._now())
+        self._world.brake(self._now())
         await self._until(self._at_rest)
 
     async def _leave_switch(self, joint: int, direction: tuple[float, float, float]) -> None:
@@ -128,7 +128,7 @@ class HomingRoutine:
         await self._until(lambda: not self._pressed(joint) or self._at_rest())
         if self._pressed(joint):
             self._fail(f"The limit switch of {JOINTS[joint]} does not open; look for a cut wire.")
-        self._world.line.brake(self._now())
+        self._world.brake(self._now())
         await self._until(self._at_rest)
         self._start(back, self._numbers.back_off_mm, self._speed(joint))
         await self._until(self._at_rest)
@@ -166,7 +166,7 @@ class HomingRoutine:
         )
         segments = trapezoid(self._here(), direction, distance_mm, speed_mm_s, acceleration)
         if segments:
-            self._world.line.append(self._now(), segments)
+            self._world.follow(segments, self._now())
 
     async def _until(self, condition: Callable[[], bool]) -> None:
         while True:

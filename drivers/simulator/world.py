@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -29,6 +29,7 @@ from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import alpha
 from twin.motion.limits import MotionLimits
+from twin.motion.segments import Segment
 
 HISTORY_S = 2.0
 """How far back the camera may look."""
@@ -206,6 +207,18 @@ class SimulatedWorld:
             return math.copysign(self._force_limit_n, wanted_mm)
         friction_n = self.parameters.drives.friction_n * float(np.sign(state.velocity.rho3_mm_s))
         return (state.contact.force_n + friction_n) * self._force_scale
+
+    def follow(self, segments: Sequence[Segment], now_s: float) -> None:
+        """Put segments behind those that the set point already follows."""
+        state = self.advance(now_s)
+        self.line.append(now_s, segments)
+        self._disturb(state)
+
+    def brake(self, now_s: float, *, rho3_mm: float | None = None) -> None:
+        """Let the set point come to rest from now on; see ``SetPointLine.brake``."""
+        state = self.advance(now_s)
+        self.line.brake(now_s, rho3_mm=rho3_mm)
+        self._disturb(state)
 
     def drive_to(self, position: JointPosition, now_s: float) -> None:
         """Make the set point jump; the joints rest there from now on."""

@@ -32,7 +32,7 @@ def push_in(world: SimulatedWorld, distance_mm: float, speed: float = 1.0) -> fl
     """Set the set point moving along rho3; returns when it ends."""
     start = world.line.at(0.0).position
     target = start._replace(rho3_mm=start.rho3_mm + distance_mm)
-    world.line.append(0.0, plan_segments(plan_joint_move(LIMITS.scaled(speed), start, target)))
+    world.follow(plan_segments(plan_joint_move(LIMITS.scaled(speed), start, target)), 0.0)
     return world.line.rests_from_s
 
 
@@ -106,7 +106,7 @@ def test_moving_sideways_with_the_plug_in_is_written_down() -> None:
     v = gamma.platform(GEOMETRY, start)
     rho1, rho2 = alpha.inverse(GEOMETRY, v._replace(x_mm=v.x_mm + 0.7))
     plan = plan_joint_move(LIMITS, start, JointPosition(rho1, rho2, start.rho3_mm))
-    world.line.append(end_s + 0.5, plan_segments(plan))
+    world.follow(plan_segments(plan), end_s + 0.5)
     world.advance(end_s + 2.0)
     assert world.truth().lateral_violation_mm == pytest.approx(0.7, abs=0.02)
 
@@ -144,7 +144,7 @@ def test_the_carriages_lag_by_half_the_play_behind_their_motors() -> None:
 
     def go(to: JointPosition, at_s: float) -> PlantState:
         start = world.line.at(at_s).position
-        world.line.append(at_s, plan_segments(plan_joint_move(LIMITS, start, to)))
+        world.follow(plan_segments(plan_joint_move(LIMITS, start, to)), at_s)
         return world.advance(at_s + 5.0)
 
     forth = go(JointPosition(160.0, 170.0, 60.0), 0.0)
