@@ -32,6 +32,9 @@ ANSWER_S = 1.0
 
 MOVING = {BoardState.RUN, BoardState.STOPPING, BoardState.HOMING}
 
+STILL_MM_S = 1.0
+"""Slower than this a joint has come to rest. A board with a fault may still be braking."""
+
 _SPEAK_FOR_THEMSELVES = {
     RobotMode.OFFLINE,
     RobotMode.EMERGENCY_STOP,
@@ -135,7 +138,7 @@ class Board:
             async with asyncio.timeout(ANSWER_S):
                 # An older sample may show the rest before the motion.
                 state = await self.telemetry.reach(asyncio.get_running_loop().time())
-                while state.board in MOVING:
+                while not _at_rest(state):
                     state = await self.telemetry.next()
         except RobotOfflineError:
             _log.warning("nobody can see whether the robot stands still: the link is down")
@@ -156,3 +159,8 @@ class Board:
         if problem is not None and mode in _SPEAK_FOR_THEMSELVES:
             return problem
         return MotionRefusedError(f"The motion board refused: {error}")
+
+
+def _at_rest(state: RobotState) -> bool:
+    slow = max(abs(v) for v in state.measured.velocity) < STILL_MM_S
+    return slow and state.board not in MOVING

@@ -110,8 +110,9 @@ class Motion:
         return False
 
     async def _feed(self, state: RobotState) -> None:
-        in_board = self._capacity - state.queue_free + self._in_transit(state)
-        room = self._look_ahead - in_board
+        in_transit = self._in_transit(state)
+        in_board = max(self._capacity - state.queue_free - self._done_since(state), 0) + in_transit
+        room = min(self._look_ahead - in_board, state.queue_free - in_transit)
         if room <= 0 or not self._pending:
             return
         batch = [self._pending.popleft() for _ in range(min(room, len(self._pending)))]
@@ -123,6 +124,13 @@ class Motion:
             self._obey_interruption()  # the reason behind the refusal, if there is one
             raise
         self._recent.append((asyncio.get_running_loop().time(), len(batch)))
+
+    def _done_since(self, state: RobotState) -> int:
+        """Segments that the board has finished for certain since it took a sample."""
+        if self._tail is None:
+            return 0
+        age_s = asyncio.get_running_loop().time() - state.sampled_at_s
+        return int(age_s / self._tail.duration_s)
 
     def _in_transit(self, state: RobotState) -> int:
         seen_until_s = state.sampled_at_s - IN_TRANSIT_S
