@@ -33,6 +33,7 @@ def segment(
 
 REFUSED = {
     "jumps": segment(HOME._replace(rho1_mm=150.002)),
+    "rho2 jumps by -0.0020": segment(HOME._replace(rho2_mm=149.998)),
     "velocity of rho2 jumps": segment(velocity=(0.0, 0.6, 0.0)),
     "lasts": segment(duration_s=0.021),
     "lasts 0 s": segment(duration_s=0.0),
