@@ -1,0 +1,96 @@
+"""Damages frames and counts what a board would take for a command that nobody gave."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+
+from drivers.arduino.link.cobs import CobsError, cobs_decode
+from drivers.arduino.link.crc16 import crc16
+from drivers.arduino.link.frames import Frame, decode_block, encode_frame
+from drivers.arduino.link.go_back_n import NUMBERS
+from drivers.arduino.protocol import messages
+from drivers.arduino.protocol.message import Message
+from drivers.arduino.protocol.messages import FROM_HOST
+
+
+@dataclass(frozen=True, slots=True)
+class CorruptionResult:
+    """What became of damaged frames.
+
+    Attributes:
+        damaged_frames: How many were damaged so that their bytes changed.
+        passed_crc: Of these, how many had a right CRC all the same.
+        passed_frame: How many passed all checks of a frame as something else than was sent.
+        believed: How many of those a board would have obeyed: outside the sequence, or with the
+            expected number and, for a segment, the expected start.
+    """
+
+    damaged_frames: int
+    passed_crc: int
+    passed_frame: int
+    believed: int
+
+
+def corruption_campaign(count: int, rng: random.Random) -> CorruptionResult:
+    """Send ``count`` frames damaged by 1 to 4 bit flips, cuts or insertions."""
+    done = passed_crc = passed_frame = believed = 0
+    while done < count:
+        sent = Frame(rng.randrange(NUMBERS), rng.randrange(NUMBERS), _random_command(rng))
+        wire = encode_frame(sent)
+        damaged = _damage(wire, rng)
+        if damaged == wire:
+            continue
+        done += 1
+        for block in damaged.split(b"\0"):
+            if block == wire[:-1]:
+                continue  # an inserted delimiter at either end: the frame itself is whole
+            passed_crc += _crc_is_right(block)
+            got = decode_block(block, FROM_HOST)
+            if got is not None and got != sent:
+                passed_frame += 1
+                believed += _would_be_obeyed(got, sent)
+    return CorruptionResult(done, passed_crc, passed_frame, believed)
+
+
+def _random_command(rng: random.Random) -> Message:
+    if rng.random() < 0.5:
+        kind: type[Message] = messages.Segment  # what travels most
+    else:
+        kind = messages.MESSAGES[rng.choice(sorted(FROM_HOST))]
+    return kind.unpack(rng.randbytes(kind.LAYOUT.size))
+
+
+def _damage(wire: bytes, rng: random.Random) -> bytes:
+    data = bytearray(wire)
+    how = rng.randrange(3)
+    if how == 0:
+        for bit in rng.sample(range(8 * len(data)), rng.randint(1, 4)):
+            data[bit // 8] ^= 1 << bit % 8
+    elif how == 1:
+        start = rng.randrange(len(data))
+        del data[start : start + rng.randint(1, 4)]
+    else:
+        for _ in range(rng.randint(1, 4)):
+            data.insert(rng.randrange(len(data)), rng.randrange(256))
+    return bytes(data)
+
+
+def _crc_is_right(block: bytes) -> bool:
+    try:
+        body = cobs_decode(block)
+    except CobsError:
+        return False
+    return len(body) > 2 and crc16(body[:-2]) == int.from_bytes(body[-2:], "little")
+
+
+def _would_be_obeyed(got: Frame, sent: Frame) -> bool:
+    """Whether a board that waits for the frame that was sent would act on another one."""
+    if not got.message.SEQUENCED:
+        return True
+    if got.seq != sent.seq:
+        return False
+    if isinstance(got.message, messages.Segment) and isinstance(sent.message, messages.Segment):
+        same_start = got.message.start == sent.message.start
+        return same_start and got.message.number == sent.message.number
+    return True
