@@ -15,9 +15,9 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
+from drivers.robot.telemetry_feed import TelemetryFeed
 from drivers.simulator.board import SimulatedBoard
 from drivers.simulator.homing import HomingRoutine
-from drivers.simulator.telemetry_feed import TelemetryFeed
 from drivers.simulator.world import SimulatedWorld
 from twin.motion.segments import Segment
 

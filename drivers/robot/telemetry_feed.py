@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 from typing import Self
 from weakref import WeakSet
 
-from drivers.robot import RobotState
+from drivers.robot.state import RobotState
 
 KEPT_SAMPLES = 64
 """A reader that falls further behind loses the oldest samples."""
