@@ -1,0 +1,131 @@
+// Follows segments: the step interrupt's side of the motion, and the queue in front of it.
+//
+// tick() belongs to the step interrupt, everything else to the main loop, which locks the interrupt
+// out while it touches what both use.
+#pragma once
+#include <stdint.h>
+
+#include "critical_section.hpp"
+#include "rail_axis.hpp"
+#include "segment.hpp"
+#include "switch_watch.hpp"
+#include "tick_clock.hpp"
+
+namespace plugpilot {
+
+constexpr uint8_t kQueueCapacity = protocol::QUEUE_CAPACITY;
+constexpr uint16_t kCoastTicks = 0xFFFF;  // 3.3 s: longer than the watchdog lets it last
+
+// What a tick asks of the pins: bit `axis` for a step, bit `axis + kBackwardsShift` for direction.
+constexpr uint8_t kBackwardsShift = 4;
+
+// The set points of one instant.
+struct SetPoint {
+  uint32_t tick;
+  int32_t rail_position[kRails];
+  int64_t slide_position;
+  int32_t rate[kAxes];
+  bool moving;
+  bool in_host_segment;
+  uint8_t queue_used;       // the one that is being followed included
+  uint16_t segment_number;  // of the host's segment that is being followed
+  uint16_t segment_tick;    // ticks of it that are done
+};
+
+class Interpolator {
+ public:
+  // --- the step interrupt ---
+
+  // A watched switch ends the steps at once, without deceleration, and drops the queue; the main
+  // loop finds that in switches() and must settle().
+  inline __attribute__((always_inline)) uint8_t tick(uint8_t switch_levels) {
+    clock_.advance_by_one_tick();
+    if (ticks_left_ == 0) return 0;
+    if (switches_.trips(switch_levels)) {
+      rest();
+      return 0;
+    }
+    uint8_t pins = 0;
+    if (rails_[0].rate < 0) pins |= 1 << kBackwardsShift;
+    if (rails_[1].rate < 0) pins |= 2 << kBackwardsShift;
+    if (advance_by_one_tick(rails_[0])) pins |= 1;
+    if (advance_by_one_tick(rails_[1])) pins |= 2;
+    if (--ticks_left_ == 0) take_next();
+    return pins;
+  }
+
+  // --- the main loop ---
+
+  const TickClock& clock() const { return clock_; }
+  SwitchWatch& switches() { return switches_; }
+
+  bool running() const;
+
+  // Steps end at once, as a switch ends them.
+  void halt();
+
+  uint8_t used() const { return static_cast<uint8_t>(head_ - tail_); }
+  uint8_t free_places() const { return static_cast<uint8_t>(kQueueCapacity - used()); }
+
+  // Where and how fast the next segment must begin.
+  const QueueEnd& end() const { return end_; }
+
+  // At rest: go on from these parts of a unit, which no step counter can tell apart.
+  void take_over_phases(const uint32_t (&phase)[kAxes]);
+
+  // Put a segment behind the others; slide_start is filled in. The caller has checked it: there is
+  // a free place and its rates stay within 32 bits. False if the queue has just run empty in
+  // motion: the axes are about to brake.
+  //
+  // ends_at_rest: nothing needs to follow. Otherwise the axes go on at their last rates if nothing
+  // does, and ran_empty() becomes true.
+  bool push(const Segment& segment, bool ends_at_rest);
+
+  // The queue ran empty while something still moved; it goes on unbraked. Call brake().
+  bool ran_empty() const { return ran_empty_; }
+
+  // How fast each axis may come to rest [2^-31 units per tick^2, above 0].
+  void set_deceleration(const int32_t (&deceleration)[kAxes]);
+
+  // Drop the queue and bring all axes to rest together, none with more than its deceleration.
+  void brake() { brake_from(nullptr); }
+
+  // The same, but the slide's set point jumps to a position [counts] and stays there.
+  void brake_and_hold_slide(int32_t slide_counts) { brake_from(&slide_counts); }
+
+  // At rest after a stop: the chain begins afresh where the rails are, and with the slide's set
+  // point at its measured position [counts].
+  void settle(int32_t slide_counts);
+
+  // At rest: give the axes other coordinates [units]; nothing moves.
+  void renumber(const int32_t (&position)[kAxes]);
+
+  SetPoint set_point() const;
+
+ private:
+  void take_next();
+  void begin(const Segment* segment);
+  void rest();
+  void brake_from(const int32_t* slide_counts);
+  uint16_t braking_ticks(const Segment& coast) const;
+  bool hold_rates(Segment& coast);
+  void finish_brake(const Segment& coast, uint16_t ticks);
+
+  TickClock clock_;
+  SwitchWatch switches_;
+  RailAxis rails_[kRails] = {};
+  uint16_t ticks_left_ = 0;
+  volatile uint8_t head_ = 0;  // both run freely; their low bits are places in the queue
+  volatile uint8_t tail_ = 0;
+  volatile bool ran_empty_ = false;
+  bool rests_behind_queue_ = true;
+  const Segment* current_ = nullptr;
+  const Segment* behind_queue_ = nullptr;  // followed when the queue runs empty in motion
+  Segment queue_[kQueueCapacity] = {};
+  Segment coast_[2] = {};  // one in use, one to prepare
+  Segment brake_ = {};
+  QueueEnd end_ = {};
+  int32_t deceleration_[kAxes] = {1, 1, 1};
+};
+
+}  // namespace plugpilot
