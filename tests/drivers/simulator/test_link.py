@@ -16,7 +16,7 @@ from drivers.robot import (
 )
 from drivers.simulator.camera import default_optics
 from drivers.simulator.garage import build_garage
-from drivers.simulator.telemetry_feed import KEPT_SAMPLES
+from drivers.robot.telemetry_feed import KEPT_SAMPLES
 from tests.drivers.simulator.stand import GEOMETRY, HOMED, LIMITS, PERFECT, Stand, on_stand, run
 from twin.camera_mount import CameraMount
 from twin.joints import JointPosition
