@@ -102,6 +102,9 @@ class Interpolator {
 
   SetPoint set_point() const;
 
+  // What the step counter does not show [2^-31 steps].
+  uint32_t rail_phase(uint8_t axis) const { return rails_[axis].phase; }
+
  private:
   void take_next();
   void begin(const Segment* segment);
@@ -113,7 +116,7 @@ class Interpolator {
 
   TickClock clock_;
   SwitchWatch switches_;
-  RailAxis rails_[kRails] = {};
+  RailAxis rails_[kRails] = {{kHalfUnit, 0, 0, 0}, {kHalfUnit, 0, 0, 0}};
   uint16_t ticks_left_ = 0;
   volatile uint8_t head_ = 0;  // both run freely; their low bits are places in the queue
   volatile uint8_t tail_ = 0;
@@ -124,7 +127,7 @@ class Interpolator {
   Segment queue_[kQueueCapacity] = {};
   Segment coast_[2] = {};  // one in use, one to prepare
   Segment brake_ = {};
-  QueueEnd end_ = {};
+  QueueEnd end_ = {{kHalfUnit, kHalfUnit, kHalfUnit}, {0, 0, 0}};
   int32_t deceleration_[kAxes] = {1, 1, 1};
 };
 

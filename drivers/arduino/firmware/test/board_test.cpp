@@ -1,0 +1,357 @@
+// States, refusals, stops and faults of the board, on a test stand.
+#include "check.hpp"
+#include "stand.hpp"
+
+using namespace stand;
+using protocol::Fault;
+using protocol::Refusal;
+using protocol::State;
+using protocol::StopCategory;
+
+namespace {
+
+bool homed(const Stand& s) { return s.report().flags & protocol::HOMED; }
+
+// In motion at 2000 steps/s on the rails, with a queue behind it.
+void start_motion(Stand& s) {
+  s.home();
+  CHECK_EQUAL(s.ramp(2000, -2000, 0), Refusal::NONE);
+  for (int i = 0; i < 8; ++i) CHECK_EQUAL(s.ramp(2000, -2000, 0), Refusal::NONE);
+  s.run(60);
+  CHECK_EQUAL(s.board.state(), State::RUN);
+}
+
+void latched(Stand& s, Fault fault, bool drives_on) {
+  CHECK(s.run_until([&] { return !s.board.moving(); }, 2000) >= 0);
+  CHECK_EQUAL(s.board.state(), State::FAULT);
+  CHECK_EQUAL(s.board.fault(), fault);
+  CHECK_EQUAL(s.board.drives_on(), drives_on);
+}
+
+}  // namespace
+
+TEST(without_a_configuration_nothing_is_possible) {
+  Stand s(false);
+  s.run(5);
+  CHECK_EQUAL(s.board.state(), State::BOOT);
+  CHECK_EQUAL(s.board.enable(), Refusal::NOT_CONFIGURED);
+  CHECK_EQUAL(s.board.home(), Refusal::NOT_CONFIGURED);
+  CHECK_EQUAL(s.board.limit_force(10), Refusal::NOT_CONFIGURED);
+  CHECK_EQUAL(s.board.configure(configuration()), Refusal::NONE);
+  CHECK_EQUAL(s.board.state(), State::IDLE);
+}
+
+TEST(drives_go_on_and_off) {
+  Stand s;
+  CHECK_EQUAL(s.board.home(), Refusal::DRIVES_OFF);
+  CHECK_EQUAL(s.board.enable(), Refusal::NONE);
+  s.run(2);
+  CHECK(s.outputs.drives_on);
+  CHECK_EQUAL(s.board.configure(configuration()), Refusal::NOT_AT_REST);
+  CHECK_EQUAL(s.ramp(100, 0, 0), Refusal::NOT_HOMED);
+  CHECK_EQUAL(s.board.disable(), Refusal::NONE);
+  s.run(2);
+  CHECK(!s.outputs.drives_on);
+  CHECK_EQUAL(s.outputs.pwm, 0);
+  CHECK_EQUAL(s.board.state(), State::IDLE);
+}
+
+TEST(homing_finds_the_true_places) {
+  Stand s;
+  s.place[0] += 130;  // the board remembers other places than the true ones
+  s.place[1] -= 90;
+  s.place[2] += 40;
+  s.home();
+  CHECK_EQUAL(s.board.state(), State::READY);
+  CHECK(homed(s));
+  const protocol::Telemetry t = s.report();
+  for (int axis = 0; axis < 2; ++axis) {
+    CHECK(std::abs(t.commanded[axis] - 4000) <= 1);
+    CHECK(std::fabs(s.place[axis] - t.commanded[axis]) <= 2);
+  }
+  CHECK(std::abs(t.measured_rho3 - 100) <= 2);
+  CHECK(std::fabs(s.place[2] - t.measured_rho3) <= 3);
+  protocol::Event event;
+  CHECK(s.board.take_event(event));
+  CHECK_EQUAL(event.kind, protocol::EventKind::HOMING_DONE);
+}
+
+TEST(carriages_keep_their_distance_while_one_seeks) {
+  Stand s;
+  s.board.enable();
+  s.board.home();
+  bool slide_was_back = false;
+  while (s.in(State::HOMING)) {
+    s.millisecond();
+    slide_was_back = slide_was_back || s.place[2] < -50;
+    if (s.place[0] != 4000) CHECK(slide_was_back);
+    CHECK(std::fabs(s.place[0] + s.place[1] - 8000) <= 2);
+  }
+}
+
+TEST(homing_fails_with_a_cut_wire_or_a_dead_switch) {
+  for (uint8_t axis = 0; axis < kAxes; ++axis) {
+    Stand cut;
+    cut.cut = 1 << axis;
+    cut.home();
+    latched(cut, Fault::HOMING_FAILED, true);
+    CHECK_EQUAL(cut.report().fault_detail, 1 << axis);
+    CHECK(!homed(cut));
+  }
+  Stand far;
+  far.place[0] += 15000;  // further than the travel and what is beyond it
+  far.home();
+  latched(far, Fault::HOMING_FAILED, true);
+  CHECK_EQUAL(far.report().fault_detail, 1);
+}
+
+TEST(segments_are_followed_to_their_end) {
+  Stand s;
+  s.home();
+  const int32_t before = s.report().commanded[0];
+  CHECK_EQUAL(s.ramp(2000, -1000, 500), Refusal::NONE);
+  CHECK_EQUAL(s.ramp(2000, -1000, 500), Refusal::NONE);
+  CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::NONE);
+  CHECK_EQUAL(s.board.state(), State::RUN);
+  CHECK(s.run_until([&] { return s.in(State::READY); }, 1000) >= 55);
+  CHECK(std::abs(s.report().commanded[0] - before - 80) <= 1);
+  CHECK(std::fabs(s.place[2] - s.report().commanded[2]) <= 4);
+  CHECK_EQUAL(s.report().next_segment, 3);
+  CHECK_EQUAL(s.report().segment, 3);
+}
+
+TEST(segments_that_do_not_fit_are_refused_and_change_nothing) {
+  Stand s;
+  s.home();
+  const int32_t still[kAxes] = {};
+  const auto refusal = [&](auto spoil) {
+    protocol::Segment message = s.segment(still, still);
+    spoil(message);
+    return s.board.push(message);
+  };
+  CHECK_EQUAL(refusal([](auto& m) { ++m.number; }), Refusal::WRONG_NUMBER);
+  CHECK_EQUAL(refusal([](auto& m) { m.ticks = 0; }), Refusal::BAD_TICKS);
+  CHECK_EQUAL(refusal([](auto& m) { m.ticks = 2001; }), Refusal::BAD_TICKS);
+  CHECK_EQUAL(refusal([](auto& m) { m.phase[1] = 1U << 31; }), Refusal::BAD_VALUE);
+  CHECK_EQUAL(refusal([](auto& m) { ++m.start[2]; }), Refusal::DISCONTINUOUS);
+  CHECK_EQUAL(refusal([](auto& m) { m.rate[0] = rate_of(60); }), Refusal::RATE_JUMP);
+  CHECK_EQUAL(refusal([](auto& m) { m.acceleration[0] = rate_of(9001) / 399; }), Refusal::TOO_FAST);
+  CHECK_EQUAL(refusal([](auto& m) {
+                m.ticks = 2000;
+                m.acceleration[2] = -rate_of(1399) / 1999;
+              }),
+              Refusal::NONE);
+  Stand t;
+  t.home();
+  protocol::Segment out = t.segment(still, still);
+  out.ticks = 2000;
+  out.acceleration[2] = -rate_of(1399) / 1999;
+  CHECK_EQUAL(t.board.push(out), Refusal::NONE);
+  protocol::Segment further = t.segment({0, 0, t.board.interpolator().end().rate[2]}, still);
+  further.ticks = 2000;
+  CHECK_EQUAL(t.board.push(further), Refusal::BEYOND_TRAVEL);
+  further.ticks = 100;
+  ++further.phase[0];
+  CHECK_EQUAL(t.board.push(further), Refusal::DISCONTINUOUS);
+}
+
+TEST(at_rest_the_phase_is_taken_over) {
+  Stand s;
+  s.home();
+  const int32_t still[kAxes] = {};
+  protocol::Segment message = s.segment(still, still);
+  message.phase[0] = 12345;
+  CHECK_EQUAL(s.board.push(message), Refusal::NONE);
+  CHECK_EQUAL(phase_part(s.board.interpolator().end().position[0]), 12345);
+}
+
+TEST(a_full_queue_refuses) {
+  Stand s;
+  s.home();
+  for (int i = 0; i < protocol::QUEUE_CAPACITY; ++i) CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::NONE);
+  CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::QUEUE_FULL);
+  CHECK_EQUAL(s.report().queue_used, protocol::QUEUE_CAPACITY);
+}
+
+TEST(a_stop_holds_or_releases) {
+  for (const bool release : {false, true}) {
+    Stand s;
+    start_motion(s);
+    s.board.stop(release ? StopCategory::DECELERATE_AND_RELEASE : StopCategory::DECELERATE_AND_HOLD);
+    CHECK_EQUAL(s.board.state(), State::STOPPING);
+    CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::STOPPING);
+    CHECK_EQUAL(s.board.disable(), Refusal::MOVING);
+    CHECK(s.run_until([&] { return !s.board.moving(); }, 200) > 10);
+    CHECK_EQUAL(s.board.state(), release ? State::IDLE : State::READY);
+    CHECK(homed(s));
+    CHECK(std::fabs(s.place[0] - s.report().commanded[0]) <= 2);
+    CHECK_EQUAL(s.report().commanded[2], s.report().measured_rho3);
+  }
+}
+
+TEST(after_a_stop_a_blocked_slide_is_let_go) {
+  Stand s;
+  s.home();
+  for (int i = 0; i < 8; ++i) s.ramp(0, 0, 1000);
+  s.run(60);
+  s.jammed = true;
+  s.run(20);
+  s.board.stop(StopCategory::DECELERATE_AND_HOLD);
+  CHECK(s.run_until([&] { return s.in(State::READY); }, 300) >= 0);
+  s.run(2);
+  CHECK_EQUAL(s.report().commanded[2], s.report().measured_rho3);
+  CHECK(std::abs(s.outputs.pwm) < 20);
+}
+
+TEST(an_empty_queue_in_motion_is_an_underrun) {
+  Stand s;
+  s.home();
+  s.ramp(2000, 0, 0);
+  s.run(30);
+  latched(s, Fault::QUEUE_UNDERRUN, true);
+  CHECK(homed(s));
+  CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::FAULT_LATCHED);
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);
+  CHECK_EQUAL(s.board.state(), State::READY);
+  CHECK_EQUAL(s.ramp(100, 0, 0), Refusal::NONE);
+}
+
+TEST(a_switch_stops_the_steps_within_a_tick_and_unhomes) {
+  Stand s;
+  start_motion(s);
+  s.cut = 2;
+  const double before = s.place[0];
+  s.run(5);
+  CHECK(std::fabs(s.place[0] - before) <= 1);
+  latched(s, Fault::LIMIT_SWITCH, true);
+  CHECK_EQUAL(s.report().fault_detail, 2);
+  CHECK(!homed(s));
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);  // homing is the way out
+  CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::NOT_HOMED);
+}
+
+TEST(a_silent_host_stops_the_robot) {
+  Stand s;
+  start_motion(s);
+  for (int i = 0; i < 7; ++i) s.ramp(2000, -2000, 0);
+  s.host_alive = false;
+  s.run(protocol::HEARTBEAT_TIMEOUT_MS - 2);
+  CHECK_EQUAL(s.board.fault(), Fault::NONE);
+  s.run(3);
+  latched(s, Fault::HEARTBEAT_LOST, false);
+  Stand idle;
+  idle.host_alive = false;
+  idle.run(1000);
+  CHECK_EQUAL(idle.board.state(), State::IDLE);
+}
+
+TEST(an_emergency_stop_latches_in_every_state) {
+  Stand s;
+  start_motion(s);
+  s.board.emergency_stop(Fault::EMERGENCY_STOP);
+  CHECK(s.report().commanded_rate[0] > 0);  // it decelerates
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::MOVING);
+  latched(s, Fault::EMERGENCY_STOP, false);
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);
+  CHECK_EQUAL(s.board.state(), State::IDLE);
+  CHECK(homed(s));
+  s.board.emergency_stop(Fault::SEGMENT_MISMATCH);
+  latched(s, Fault::SEGMENT_MISMATCH, false);
+  CHECK(!homed(s));
+  Stand boot(false);
+  boot.board.emergency_stop(Fault::NONE);
+  latched(boot, Fault::EMERGENCY_STOP, false);
+  CHECK_EQUAL(boot.board.clear_fault(), Refusal::NONE);
+  CHECK_EQUAL(boot.board.state(), State::BOOT);
+}
+
+TEST(an_open_emergency_stop_circuit_latches_until_it_is_closed) {
+  Stand s;
+  start_motion(s);
+  s.inputs.stop_circuit_open = true;
+  s.run(1);
+  CHECK_EQUAL(s.board.fault(), Fault::NONE);  // a spark
+  s.run(1);
+  latched(s, Fault::EMERGENCY_STOP, false);
+  CHECK(s.report().flags & protocol::ESTOP_OPEN);
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::CAUSE_PRESENT);
+  s.inputs.stop_circuit_open = false;
+  s.run(1);
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);
+}
+
+TEST(a_jammed_slide_stalls_at_its_force_limit) {
+  Stand s;
+  s.home();
+  CHECK_EQUAL(s.board.limit_force(0), Refusal::BAD_VALUE);
+  CHECK_EQUAL(s.board.limit_force(1501), Refusal::BAD_VALUE);
+  CHECK_EQUAL(s.board.limit_force(300), Refusal::NONE);
+  s.jammed = true;
+  for (int i = 0; i < 3; ++i) s.ramp(0, 0, 800);
+  for (int i = 0; i < 3; ++i) s.ramp(0, 0, 0);
+  int largest = 0;
+  while (s.board.fault() == Fault::NONE) {
+    s.millisecond();
+    largest = std::max<int>(largest, s.report().force_dn);
+    CHECK(s.report().force_dn <= 300);
+  }
+  CHECK(largest >= 295);
+  latched(s, Fault::STALL, true);
+  CHECK(homed(s));
+  CHECK_EQUAL(s.report().commanded[2], s.report().measured_rho3);
+}
+
+TEST(a_slide_that_is_dragged_away_is_a_following_error) {
+  Stand s;
+  start_motion(s);
+  s.place[2] += 320;
+  s.run(2);
+  latched(s, Fault::FOLLOWING_ERROR, true);
+}
+
+TEST(the_slide_follows_closely_and_settles) {
+  Stand s;
+  s.home();
+  for (int i = 0; i < 10; ++i) s.ramp(0, 0, 1000);
+  int32_t worst = 0;
+  for (int i = 0; i < 150; ++i) {
+    s.millisecond();
+    worst = std::max(worst, std::abs(s.report().commanded[2] - s.report().measured_rho3));
+  }
+  CHECK(worst <= 25);  // behind a start five times as sharp as homing has
+  for (int i = 0; i < 2; ++i) s.ramp(0, 0, 0);
+  CHECK(s.run_until([&] { return s.in(State::READY); }, 500) >= 0);
+}
+
+TEST(the_first_fault_stays) {
+  Stand s;
+  start_motion(s);
+  s.board.emergency_stop(Fault::EMERGENCY_STOP);
+  s.cut = 1;
+  s.run(10);
+  latched(s, Fault::EMERGENCY_STOP, false);
+  CHECK(!homed(s));
+}
+
+TEST(a_new_session_stops_what_moves) {
+  Stand s;
+  start_motion(s);
+  s.board.begin_session();
+  CHECK(s.run_until([&] { return s.in(State::READY); }, 300) >= 0);
+  CHECK_EQUAL(s.report().next_segment, 0);
+}
+
+TEST(unsound_configurations_are_refused) {
+  CHECK(configuration().is_sound());
+  const auto sound_with = [](auto spoil) {
+    Configuration c = configuration();
+    spoil(c);
+    return c.is_sound();
+  };
+  CHECK(!sound_with([](auto& c) { c.axis[0].stop_deceleration = 0; }));
+  CHECK(!sound_with([](auto& c) { c.axis[1].max_rate = 1U << 31; }));
+  CHECK(!sound_with([](auto& c) { c.axis[2].axis = 1; }));
+  CHECK(!sound_with([](auto& c) { c.axis[2].travel_min = 6000; }));
+  CHECK(!sound_with([](auto& c) { c.rho3.pwm_per_newton_q8 = 0; }));
+  CHECK(!sound_with([](auto& c) { c.rho3.force_limit_dn = 2000; }));
+}
