@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
 
+from drivers.arduino.driver import ArduinoRobot
+from drivers.arduino.settings import BoardSettings
 from drivers.camera import CameraDriver, CameraModel
 from drivers.errors import UnknownDriverError
 from drivers.robot import RobotDriver
@@ -35,6 +37,7 @@ class DeviceRequest:
         optics: Calibrated model of the camera.
         simulation: Numbers of the simulated garage.
         seed: Decides everything random in it.
+        board: Numbers of the real motion board.
     """
 
     robot: str
@@ -47,6 +50,7 @@ class DeviceRequest:
     optics: CameraModel
     simulation: SimulationParameters
     seed: int
+    board: BoardSettings = field(default_factory=BoardSettings)
 
     @property
     def simulated(self) -> bool:
@@ -67,9 +71,13 @@ class DeviceRequest:
 
 
 SIMULATOR = "simulator"
+ARDUINO = "arduino"
 
 ROBOTS: Mapping[str, Callable[[DeviceRequest], RobotDriver]] = {
     SIMULATOR: lambda request: request.garage.robot,
+    ARDUINO: lambda request: ArduinoRobot(
+        request.port, request.geometry, request.limits, request.board
+    ),
 }
 CAMERAS: Mapping[str, Callable[[DeviceRequest], CameraDriver]] = {
     SIMULATOR: lambda request: request.garage.camera,

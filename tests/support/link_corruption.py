@@ -13,6 +13,9 @@ from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
 from drivers.arduino.protocol.messages import FROM_HOST
 
+LARGEST_RATE_JUMP = round(0.5 * 226.6 / 20_000 * 2**31)
+"""As configured for a carriage: 0.5 mm/s at 226.6 microsteps per mm."""
+
 
 @dataclass(frozen=True, slots=True)
 class CorruptionResult:
@@ -22,8 +25,8 @@ class CorruptionResult:
         damaged_frames: How many were damaged so that their bytes changed.
         passed_crc: Of these, how many had a right CRC all the same.
         passed_frame: How many passed all checks of a frame as something else than was sent.
-        believed: How many of those a board would have obeyed: outside the sequence, or with the
-            expected number and, for a segment, the expected start.
+        believed: How many of those a board would have obeyed as another command: outside the
+            sequence, or with the expected number and, for a segment, as the queue's continuation.
     """
 
     damaged_frames: int
@@ -85,12 +88,20 @@ def _crc_is_right(block: bytes) -> bool:
 
 
 def _would_be_obeyed(got: Frame, sent: Frame) -> bool:
-    """Whether a board that waits for the frame that was sent would act on another one."""
+    """Whether a board that waits for the frame that was sent would act on another command."""
+    if got.message == sent.message and got.seq == sent.seq:
+        return False  # the same command; a board does not act on the ack
     if not got.message.SEQUENCED:
         return True
     if got.seq != sent.seq:
         return False
     if isinstance(got.message, messages.Segment) and isinstance(sent.message, messages.Segment):
-        same_start = got.message.start == sent.message.start
-        return same_start and got.message.number == sent.message.number
+        return _continues_alike(got.message, sent.message)
     return True
+
+
+def _continues_alike(got: messages.Segment, sent: messages.Segment) -> bool:
+    """Whether a segment passes the board's check against the end of its queue."""
+    same_place = (got.number, got.start, got.phase) == (sent.number, sent.start, sent.phase)
+    jumps = [abs(a - b) for a, b in zip(got.rate, sent.rate, strict=True)]
+    return same_place and max(jumps) <= LARGEST_RATE_JUMP
