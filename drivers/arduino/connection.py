@@ -111,6 +111,17 @@ class Connection:
         await self.command(messages.Home())
         self._distrust()
 
+    async def disable(self) -> None:
+        """De-energise the drives; what is turned by hand then stands where it is measured."""
+        await self.command(messages.Disable())
+        self._distrust()
+
+    async def clear_fault(self) -> None:
+        """Release a latched fault."""
+        await self.command(messages.ClearFault())
+        if not self._tracker.running:
+            self._distrust()
+
     async def push(self, segments: Sequence[Segment]) -> None:
         """Append segments to the board's queue.
 

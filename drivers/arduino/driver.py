@@ -110,7 +110,7 @@ class ArduinoRobot:
 
     async def disable(self) -> None:
         """De-energise the drives; refused while moving."""
-        await self._require().command(messages.Disable())
+        await self._require().disable()
 
     async def home(self) -> None:
         """Seek the limit switches and set the positions; returns when done.
@@ -157,7 +157,7 @@ class ArduinoRobot:
 
     async def clear_fault(self) -> None:
         """Release a latched fault whose cause is gone."""
-        await self._require().command(messages.ClearFault())
+        await self._require().clear_fault()
 
     # --- inside ------------------------------------------------------------------------------
 

@@ -74,6 +74,11 @@ class Tracker:
             queue_capacity=self._capacity,
         )
 
+    @property
+    def running(self) -> bool:
+        """The newest sample shows the board following segments."""
+        return self._sample is not None and self._sample.state == State.RUN
+
     def forget(self) -> None:
         """The board has been told to leave its line, or has refused a part of it."""
         self._line.forget()
