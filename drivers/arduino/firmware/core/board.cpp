@@ -101,8 +101,7 @@ void Board::look_at_slide() {
     latch(state_ == State::HOMING ? Fault::HOMING_FAILED : Fault::QUEUE_UNDERRUN, 0);
     return;
   }
-  const int64_t set_point = interpolator_.set_point().slide_position;
-  const int32_t error = whole_part(set_point) - encoder_.counts();
+  const int32_t error = slide_error();
   if (state_ != State::STOPPING && slide_.stalled()) {
     latch(Fault::STALL, bit(kSlide));
   } else if (error > config_.rho3.following_error || -error > config_.rho3.following_error) {
@@ -126,14 +125,16 @@ void Board::step_homing() {
   }
 }
 
+int32_t Board::slide_error() const { return whole_part(now_.slide_position) - encoder_.counts(); }
+
 bool Board::slide_settled() const {
-  const int32_t error =
-      whole_part(interpolator_.set_point().slide_position) - encoder_.counts();
+  const int32_t error = slide_error();
   return error <= config_.rho3.settled && -error <= config_.rho3.settled;
 }
 
 void Board::take_over_slide() {
   interpolator_.settle(encoder_.counts());
+  now_.slide_position = interpolator_.end().position[kSlide];
   slide_.reset();
 }
 
@@ -163,8 +164,7 @@ void Board::drive_slide() {
     slide_.reset();
     return;
   }
-  const SetPoint now = interpolator_.set_point();
-  slide_.update(now.slide_position, now.rate[kSlide], encoder_);
+  slide_.update(now_.slide_position, now_.rate[kSlide], encoder_);
 }
 
 Outputs Board::every_millisecond(const Inputs& inputs) {
@@ -178,6 +178,8 @@ Outputs Board::every_millisecond(const Inputs& inputs) {
   pressed_ = inputs.switch_levels ^ outputs.released_levels;
   const bool backwards = config_.axis[kSlide].flags & protocol::ENCODER_REVERSED;
   encoder_.sample(backwards ? -inputs.encoder_raw : inputs.encoder_raw);
+
+  now_ = interpolator_.set_point();
 
   look_for_faults(inputs);
   step_homing();
@@ -204,7 +206,7 @@ bool Board::take_event(protocol::Event& event) {
 }
 
 void Board::report(protocol::Telemetry& telemetry) const {
-  const SetPoint now = interpolator_.set_point();
+  const SetPoint now = interpolator_.set_point();  // newer than this millisecond's
   telemetry.tick = now.tick;
   telemetry.state = state_;
   telemetry.fault = fault_;

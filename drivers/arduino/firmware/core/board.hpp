@@ -92,10 +92,12 @@ class Board {
   void come_to_rest();
   void take_over_slide();
   void drive_slide();
+  int32_t slide_error() const;
   bool slide_settled() const;
   void tell(protocol::EventKind kind, uint8_t code, uint8_t axes);
 
   Interpolator interpolator_;
+  SetPoint now_ = {};  // of this millisecond
   Encoder encoder_;
   SlideController slide_;
   Configuration config_ = {};

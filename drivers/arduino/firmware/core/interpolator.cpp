@@ -26,6 +26,14 @@ void Interpolator::rest() {
   ran_empty_ = false;
 }
 
+void Interpolator::end_segment() {
+  if (switches_.has_tripped()) {
+    rest();
+  } else {
+    take_next();
+  }
+}
+
 void Interpolator::take_next() {
   if (head_ != tail_) tail_ = tail_ + 1;
   if (head_ != tail_) {
@@ -81,7 +89,7 @@ bool Interpolator::push(const Segment& segment, bool ends_at_rest) {
     behind_queue_ = &coast;
     rests_behind_queue_ = ends_at_rest;
     head_ = head_ + 1;
-    if (ticks_left_ == 0) begin(&place);
+    if (ticks_left_ == 0 && !held_) begin(&place);
   }
   end_ = end;
   return true;
@@ -100,6 +108,12 @@ uint16_t Interpolator::braking_ticks(const Segment& coast) const {
     if (rounded_up > ticks) ticks = rounded_up;
   }
   return ticks < kCoastTicks ? static_cast<uint16_t>(ticks) : kCoastTicks;
+}
+
+void Interpolator::release() {
+  CriticalSection lock;
+  held_ = false;
+  if (ticks_left_ == 0 && head_ != tail_) begin(&queue_[tail_ % kQueueCapacity]);
 }
 
 // Dividing takes longer than a tick, so the rates are held until the brake has been worked out.

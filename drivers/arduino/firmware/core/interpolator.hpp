@@ -38,21 +38,34 @@ class Interpolator {
 
   // A watched switch ends the steps at once, without deceleration, and drops the queue; the main
   // loop finds that in switches() and must settle().
-  inline __attribute__((always_inline)) uint8_t tick(uint8_t switch_levels) {
+  //
+  // end_segment(interpolator) has to call end_segment(). It is given from outside because a plain
+  // call would make the interrupt save all registers at every tick, though it is rarely made.
+  template <class EndSegment>
+  inline __attribute__((always_inline)) uint8_t tick(uint8_t switch_levels, EndSegment end) {
     clock_.advance_by_one_tick();
     if (ticks_left_ == 0) return 0;
     if (switches_.trips(switch_levels)) {
-      rest();
+      end(*this);
       return 0;
     }
     uint8_t pins = 0;
-    if (rails_[0].rate < 0) pins |= 1 << kBackwardsShift;
-    if (rails_[1].rate < 0) pins |= 2 << kBackwardsShift;
-    if (advance_by_one_tick(rails_[0])) pins |= 1;
-    if (advance_by_one_tick(rails_[1])) pins |= 2;
-    if (--ticks_left_ == 0) take_next();
+    const RailTick rho1 = advance_by_one_tick(rails_[0]);
+    if (rho1.step & kTopBit) pins |= 1;
+    if (rho1.backwards & kTopBit) pins |= 1 << kBackwardsShift;
+    const RailTick rho2 = advance_by_one_tick(rails_[1]);
+    if (rho2.step & kTopBit) pins |= 2;
+    if (rho2.backwards & kTopBit) pins |= 2 << kBackwardsShift;
+    if (--ticks_left_ == 0) end(*this);
     return pins;
   }
+
+  uint8_t tick(uint8_t switch_levels) {
+    return tick(switch_levels, [](Interpolator& self) { self.end_segment(); });
+  }
+
+  // The segment is over, or a switch has tripped.
+  void end_segment();
 
   // --- the main loop ---
 
@@ -66,6 +79,10 @@ class Interpolator {
 
   uint8_t used() const { return static_cast<uint8_t>(head_ - tail_); }
   uint8_t free_places() const { return static_cast<uint8_t>(kQueueCapacity - used()); }
+
+  // Between these two, segments are pushed without being begun.
+  void hold() { held_ = true; }
+  void release();
 
   // Where and how fast the next segment must begin.
   const QueueEnd& end() const { return end_; }
@@ -122,6 +139,7 @@ class Interpolator {
   volatile uint8_t tail_ = 0;
   volatile bool ran_empty_ = false;
   bool rests_behind_queue_ = true;
+  bool held_ = false;
   const Segment* current_ = nullptr;
   const Segment* behind_queue_ = nullptr;  // followed when the queue runs empty in motion
   Segment queue_[kQueueCapacity] = {};

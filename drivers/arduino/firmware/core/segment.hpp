@@ -20,8 +20,18 @@ constexpr uint32_t kHalfUnit = static_cast<uint32_t>(kOneUnit / 2);
 // A position in the middle of a unit: from there its whole part rounds to the nearest, not down.
 constexpr int64_t centred(int32_t whole) { return whole * kOneUnit + kHalfUnit; }
 
-constexpr int32_t whole_part(int64_t position) {
-  return static_cast<int32_t>(position >> kPhaseBits);
+// Shifts of 64 bits by anything but whole bytes are slow loops on the AVR, so the upper and lower
+// half are shifted one by one.
+constexpr int32_t shifted_down(int64_t position, uint8_t bits) {
+  return static_cast<int32_t>(static_cast<uint32_t>(position >> 32) << (32 - bits) |
+                              static_cast<uint32_t>(position) >> bits);
+}
+
+constexpr int32_t whole_part(int64_t position) { return shifted_down(position, kPhaseBits); }
+
+// [2^-8 units]; wraps beyond 2^23 units.
+constexpr int32_t whole_part_q8(int64_t position) {
+  return shifted_down(position, kPhaseBits - 8);
 }
 
 constexpr uint32_t phase_part(int64_t position) {
@@ -32,12 +42,14 @@ constexpr uint32_t phase_part(int64_t position) {
 // acceleration give.
 inline int64_t position_after(int64_t start, int32_t rate, int32_t acceleration, uint16_t ticks) {
   const uint32_t n = ticks;
-  const int64_t pairs = n == 0 ? 0 : static_cast<int64_t>(n * (n - 1) / 2);
-  return start + static_cast<int64_t>(rate) * ticks + acceleration * pairs;
+  const int32_t pairs = n == 0 ? 0 : static_cast<int32_t>(n * (n - 1) / 2);
+  const int32_t signed_ticks = ticks;
+  return start + static_cast<int64_t>(rate) * signed_ticks +
+         static_cast<int64_t>(acceleration) * pairs;
 }
 
 inline int64_t rate_after(int32_t rate, int32_t acceleration, uint16_t ticks) {
-  return rate + static_cast<int64_t>(acceleration) * ticks;
+  return rate + static_cast<int64_t>(acceleration) * static_cast<int32_t>(ticks);
 }
 
 // One segment as the interpolator follows it. The rails go on from where they are; the slide,

@@ -4,6 +4,7 @@
 
 #include "encoder.hpp"
 #include "protocol.hpp"
+#include "segment.hpp"
 
 namespace plugpilot {
 
@@ -12,7 +13,7 @@ constexpr int16_t kPwmMax = 255;
 class SlideController {
  public:
   void configure(const protocol::ConfigRho3& numbers);
-  void limit_force(uint16_t force_dn) { force_limit_dn_ = force_dn; }
+  void limit_force(uint16_t force_dn);  // [0.1 N]
 
   // Forget what has been integrated and how long the slide has been stuck.
   void reset();
@@ -36,11 +37,11 @@ class SlideController {
 
  private:
   int32_t wanted_q8(int32_t error_q8, int32_t speed_error_q8) const;
-  void integrate(int32_t error_q8, int32_t wanted_q8, int32_t cap_q8);
+  void integrate(int32_t error_q8, int32_t wanted_q8);
   void watch_for_stall(int32_t counts);
 
   protocol::ConfigRho3 numbers_ = {};
-  uint16_t force_limit_dn_ = 0;
+  int32_t cap_q8_ = 0;        // PWM that makes force, at most
   int32_t integral_q16_ = 0;  // PWM
   int32_t force_q8_ = 0;      // PWM that makes force
   int32_t last_counts_ = 0;

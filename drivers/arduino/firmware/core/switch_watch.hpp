@@ -15,6 +15,8 @@ class SwitchWatch {
     return true;
   }
 
+  bool has_tripped() const { return tripped_ != 0; }
+
   void watch(uint8_t mask, uint8_t released_levels) {
     released_levels_ = released_levels;
     watched_ = mask;

@@ -66,9 +66,12 @@ bool follow(Interpolator& interpolator, const Trapezoid& motion) {
     up[axis] = static_cast<int32_t>(motion.way[axis] * kOneUnit / divisor);
     down[axis] = -up[axis];
   }
+  // a short ramp would be over before the cruise is worked out
+  interpolator.hold();
   push_phase(interpolator, ramp, up, false);
   push_phase(interpolator, cruise, none, false);
   push_phase(interpolator, ramp, down, true);
+  interpolator.release();
   return true;
 }
 
