@@ -22,6 +22,7 @@ _SUBCOMMANDS = {
     "serve": _Subcommand("server.cli.serve", "Run the robot, its pages and its API."),
     "simulate": _Subcommand("server.cli.simulate", "Run jobs on the simulator, without pages."),
     "locate": _Subcommand("server.cli.locate", "Find the socket in pictures."),
+    "firmware": _Subcommand("server.cli.firmware", "Build and write the board's firmware."),
     "config": _Subcommand("server.cli.config", "Print the settings in force."),
     "version": _Subcommand("server.cli.version", "Print the version."),
 }
