@@ -156,7 +156,7 @@ void Board::come_to_rest() {
   last_counts_ = encoder_.counts();
   moving_ = settling_ || interpolator_.running() || in_motion_state();
   // what is turned by hand stands where it is measured
-  if (!drives_on_ && !moving_) take_over_slide();
+  if (!drives_on_ && !moving_ && slide_error() != 0) take_over_slide();
 }
 
 void Board::drive_slide() {

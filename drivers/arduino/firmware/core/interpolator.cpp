@@ -60,10 +60,10 @@ void Interpolator::halt() {
 }
 
 void Interpolator::take_over_phases(const uint32_t (&phase)[kAxes]) {
-  CriticalSection lock;
   for (uint8_t axis = 0; axis < kAxes; ++axis) {
     end_.position[axis] = end_.position[axis] - phase_part(end_.position[axis]) + phase[axis];
   }
+  CriticalSection lock;
   for (uint8_t axis = 0; axis < kRails; ++axis) rails_[axis].phase = phase[axis];
 }
 
@@ -187,11 +187,11 @@ void Interpolator::settle(int32_t slide_counts) {
 }
 
 void Interpolator::renumber(const int32_t (&position)[kAxes]) {
-  CriticalSection lock;
   for (uint8_t axis = 0; axis < kAxes; ++axis) {
     end_.position[axis] = centred(position[axis]);
     end_.rate[axis] = 0;
   }
+  CriticalSection lock;
   for (uint8_t axis = 0; axis < kRails; ++axis) {
     rails_[axis] = RailAxis{kHalfUnit, 0, 0, position[axis]};
   }

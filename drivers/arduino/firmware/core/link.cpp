@@ -39,7 +39,7 @@ void Link::handle(const Frame& frame) {
   switch (static_cast<MessageType>(frame.type)) {
     case MessageType::HELLO_REQUEST: {
       const uint16_t session = read<protocol::HelloRequest>(frame).session;
-      if (session != session_) begin_session(session);
+      if (session != 0 && session != session_) begin_session(session);
       send_hello();
       break;
     }

@@ -56,6 +56,31 @@ TEST(drives_go_on_and_off) {
   CHECK_EQUAL(s.board.state(), State::IDLE);
 }
 
+TEST(with_the_drives_off_the_slide_stands_where_it_is_measured) {
+  Stand s;
+  s.run(5);
+  const int32_t before = s.report().commanded[2];
+  s.place[2] += 70;  // turned by hand
+  s.run(3);
+  CHECK_EQUAL(s.report().commanded[2], before + 70);
+  s.board.enable();
+  s.run(20);
+  CHECK_EQUAL(s.outputs.pwm, 0);
+}
+
+TEST(the_place_before_a_loss_of_power_is_remembered) {
+  Stand s(false);
+  s.board.remember({11, 22, 33});
+  CHECK_EQUAL(s.board.configure(configuration()), Refusal::NONE);
+  s.run(2);
+  CHECK_EQUAL(s.report().commanded[1], 22);
+  CHECK_EQUAL(s.report().measured_rho3, 33);
+  Stand unknown;
+  unknown.run(2);
+  CHECK_EQUAL(unknown.report().commanded[0], 4000);
+  CHECK_EQUAL(unknown.report().measured_rho3, 100);
+}
+
 TEST(homing_finds_the_true_places) {
   Stand s;
   s.place[0] += 130;  // the board remembers other places than the true ones

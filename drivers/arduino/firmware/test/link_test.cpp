@@ -118,6 +118,8 @@ TEST(a_board_without_a_session_says_hello_only) {
   host.send(MessageType::ENABLE, 0);
   CHECK_EQUAL(host.stand.board.state(), State::IDLE);
   CHECK(host.all(MessageType::ACK).empty());
+  host.begin(0);
+  CHECK_EQUAL(host.last(MessageType::HELLO).as<protocol::Hello>().session, 0);
 }
 
 TEST(the_same_session_again_changes_nothing) {
