@@ -61,7 +61,7 @@ TEST(with_the_drives_off_the_slide_stands_where_it_is_measured) {
   s.run(5);
   const int32_t before = s.report().commanded[2];
   s.place[2] += 70;  // turned by hand
-  s.run(3);
+  s.run(30);
   CHECK_EQUAL(s.report().commanded[2], before + 70);
   s.board.enable();
   s.run(20);
