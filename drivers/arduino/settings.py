@@ -39,12 +39,17 @@ class AxisSettings(Group):
 
 
 class SlideSettings(Group):
-    """The closed loop of rho3. PWM runs from 0 to 255."""
+    """The closed loop of rho3. PWM runs from 0 to 255.
+
+    The board makes up for friction and back EMF, which leaves the bare inertia of the motor: with a
+    time constant of 50 ms, m = 110 x 50 = 5500 PWM per count/ms^2. So the gains follow from the
+    wanted eigenfrequency and a damping of 1: kp = m w^2 and kd = 2 m w, here w = 0.02 per ms.
+    """
 
     encoder_reversed: bool = False
-    kp_pwm_per_count: Annotated[float, Field(ge=0, le=255)] = 4.0
-    ki_pwm_per_count_s: Annotated[float, Field(ge=0, le=999)] = 20.0
-    kd_pwm_per_count_ms: Annotated[float, Field(ge=0, le=255)] = 8.0
+    kp_pwm_per_count: Annotated[float, Field(ge=0, le=255)] = 2.2
+    ki_pwm_per_count_s: Annotated[float, Field(ge=0, le=999)] = 5.0
+    kd_pwm_per_count_ms: Annotated[float, Field(ge=0, le=255)] = 220.0
     integral_pwm_max: Pwm = 60
     friction_pwm: Pwm = Field(12, description="overcomes the dry friction of motor and screw")
     back_emf_pwm_per_count_ms: Annotated[float, Field(ge=0, le=255)] = Field(
