@@ -1,100 +1,31 @@
-"""The driver against a board that speaks the real protocol over a pseudo terminal."""
+"""The driver's commands, against a board that speaks the real protocol."""
 
 from __future__ import annotations
 
-import asyncio
-import contextlib
-from collections.abc import AsyncIterator, Callable, Iterator
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 
-from drivers.arduino import handshake
 from drivers.arduino.driver import ArduinoRobot
-from drivers.arduino.errors import BoardNotFoundError, BoardSilentError, WrongFirmwareError
 from drivers.arduino.protocol import messages
-from drivers.arduino.protocol.messages import Refusal
 from drivers.arduino.settings import BoardSettings
 from drivers.robot import (
     BoardRefusedError,
     BoardState,
     FaultCode,
-    NotConnectedError,
     QueueFullError,
-    RobotState,
     StopCategory,
 )
-from tests.support.board_cable import BoardCable, board_cable
-from tests.support.eventually import eventually
-from tests.support.fake_board import FakeBoard
-from twin.geometry import RobotGeometry
+from tests.drivers.arduino.driving import (
+    HOME,
+    LIMITS,
+    STILL,
+    move,
+    until,
+)
+from tests.support.board_cable import BoardCable
 from twin.joints import JointAcceleration, JointPosition, JointVelocity
-from twin.motion import MotionLimits, Segment, plan_joint_move, plan_segments
-
-GEOMETRY = RobotGeometry()
-LIMITS = MotionLimits()
-WITHIN_S = 5.0
-HOME = JointPosition(150, 150, 50)
-STILL = Segment(0.02, HOME, JointVelocity(0, 0, 0), JointAcceleration(0, 0, 0))
-
-
-@pytest.fixture
-def cable(tmp_path: Path) -> Iterator[BoardCable]:
-    with board_cable(tmp_path) as cable:
-        yield cable
-
-
-def robot_at(cable: BoardCable) -> ArduinoRobot:
-    return ArduinoRobot(str(cable.device), GEOMETRY, LIMITS, BoardSettings())
-
-
-@pytest.fixture
-async def robot(cable: BoardCable) -> AsyncIterator[ArduinoRobot]:
-    robot = robot_at(cable)
-    await robot.connect()
-    yield robot
-    await robot.close()
-
-
-@pytest.fixture
-async def homed(robot: ArduinoRobot) -> ArduinoRobot:
-    await robot.enable()
-    await robot.home()
-    return robot
-
-
-async def until(robot: ArduinoRobot, condition: Callable[[RobotState], bool]) -> RobotState:
-    async with asyncio.timeout(WITHIN_S):
-        async for state in robot.telemetry():
-            if condition(state):
-                return state
-    raise AssertionError("the telemetry ended")
-
-
-async def move(robot: ArduinoRobot, target: JointPosition) -> list[RobotState]:
-    """Feed a whole move as the server does, and return all samples on the way."""
-    start = (await until(robot, lambda s: s.board is BoardState.READY)).commanded.position
-    pending = plan_segments(plan_joint_move(LIMITS, start, target), 0.02)
-    samples: list[RobotState] = []
-    reader = robot.telemetry()
-    await robot.push(pending[:8])
-    del pending[:8]
-    pushed_s = asyncio.get_running_loop().time()
-    async with asyncio.timeout(WITHIN_S):
-        async for state in reader:
-            samples.append(state)
-            if state.fault is not None:
-                return samples
-            room = min(state.queue_free - 8, len(pending))
-            if room > 0 and state.sampled_at_s > pushed_s:
-                await robot.push(pending[:room])
-                del pending[:room]
-                pushed_s = asyncio.get_running_loop().time()
-            ended = state.board is BoardState.READY and state.sampled_at_s > pushed_s
-            if ended and not pending:
-                return samples
-    raise AssertionError("the telemetry ended")
+from twin.motion import Segment, plan_joint_move, plan_segments
 
 
 async def test_a_board_introduces_itself(robot: ArduinoRobot, cable: BoardCable) -> None:
@@ -104,15 +35,6 @@ async def test_a_board_introduces_itself(robot: ArduinoRobot, cable: BoardCable)
     assert identity.queue_capacity == 16
     assert identity.segment_s == pytest.approx(0.02)
     assert cable.board.state is messages.State.IDLE, "it was configured"
-
-
-async def test_a_second_connection_does_not_configure_again(cable: BoardCable) -> None:
-    for _ in range(2):
-        robot = robot_at(cable)
-        await robot.connect()
-        await robot.close()
-    commits = [m for m in cable.board.heard if isinstance(m, messages.ConfigCommit)]
-    assert len(commits) == 1
 
 
 async def test_homing_gives_valid_positions(robot: ArduinoRobot) -> None:
@@ -151,22 +73,6 @@ async def test_several_motions_one_after_another(homed: ArduinoRobot) -> None:
         assert samples[-1].commanded.position == pytest.approx(target, abs=1e-6)
 
 
-async def test_a_bad_line_changes_nothing(tmp_path: Path) -> None:
-    with board_cable(tmp_path, loss=0.08) as cable:
-        robot = robot_at(cable)
-        await robot.connect()
-        await robot.enable()
-        await robot.home()
-        for force_n in range(10, 40):
-            await robot.set_force_limit(float(force_n))
-            assert cable.board.force_limit_dn == 10 * force_n
-        limits = [m for m in cable.board.heard if isinstance(m, messages.ForceLimit)]
-        assert [m.force_dn for m in limits] == [10 * n for n in range(10, 40)]
-        await robot.stop(StopCategory.DECELERATE_AND_HOLD)
-        await robot.close()
-        assert cable.board.state is messages.State.IDLE
-
-
 async def test_the_board_knows_better_and_says_why(robot: ArduinoRobot, cable: BoardCable) -> None:
     with pytest.raises(BoardRefusedError, match="the drives are off"):
         await robot.home()
@@ -176,19 +82,6 @@ async def test_the_board_knows_better_and_says_why(robot: ArduinoRobot, cable: B
     await until(robot, lambda state: state.enabled)
     with pytest.raises(BoardRefusedError, match="before homing"):
         await robot.push([STILL])
-
-
-async def test_a_refusal_is_noticed_although_its_event_was_lost(
-    homed: ArduinoRobot, cable: BoardCable
-) -> None:
-    def refuse_secretly(board: FakeBoard) -> None:
-        board.refuse_next = Refusal.BAD_VALUE
-        board.events_to_lose = 1
-
-    cable.change(refuse_secretly)
-    with pytest.raises(BoardRefusedError, match="outside its range"):
-        await homed.set_force_limit(50.0)
-    await homed.set_force_limit(60.0)
 
 
 @pytest.mark.parametrize(
@@ -272,101 +165,3 @@ async def test_a_single_lost_step_is_a_segment_mismatch(
     assert state.fault is not None
     assert state.fault.code is FaultCode.SEGMENT_MISMATCH
     assert not state.homed
-
-
-async def test_a_pulled_cable_ends_the_telemetry(homed: ArduinoRobot, cable: BoardCable) -> None:
-    reader = homed.telemetry()
-    cable.pull()
-    async with asyncio.timeout(WITHIN_S):
-        async for _ in reader:
-            pass
-    with pytest.raises(NotConnectedError):
-        await homed.stop(StopCategory.DECELERATE_AND_HOLD)
-    with pytest.raises(BoardNotFoundError, match="cannot be opened"):
-        await homed.connect()
-    cable.change(lambda board: board.restart())  # it lived on the power of the cable
-    cable.plug_in()
-    await homed.connect()
-    state = await until(homed, lambda _: True)
-    assert not state.homed
-    assert state.board is BoardState.IDLE
-
-
-async def test_a_silent_board_is_a_lost_one(homed: ArduinoRobot, cable: BoardCable) -> None:
-    reader = homed.telemetry()
-    command = asyncio.create_task(homed.home())
-    cable.change(lambda board: setattr(board, "mute", True))
-    async with asyncio.timeout(WITHIN_S):
-        async for _ in reader:
-            pass
-    with pytest.raises(NotConnectedError):
-        await command
-
-
-async def test_a_board_that_restarts_is_a_lost_one(homed: ArduinoRobot, cable: BoardCable) -> None:
-    reader = homed.telemetry()
-    cable.change(lambda board: board.restart())
-    async with asyncio.timeout(WITHIN_S):
-        async for _ in reader:
-            pass
-    await homed.connect()
-    assert not (await until(homed, lambda _: True)).homed
-
-
-async def test_a_host_that_falls_silent_stops_the_board(
-    homed: ArduinoRobot, cable: BoardCable
-) -> None:
-    assert homed._connection is not None
-    homed._connection.session.end(NotConnectedError("the host hangs"))
-    await eventually(lambda: cable.board.fault is messages.Fault.HEARTBEAT_LOST)
-    assert not cable.board.enabled
-
-
-async def test_heartbeats_keep_the_drives_on(homed: ArduinoRobot) -> None:
-    loop = asyncio.get_running_loop()
-    end_s = loop.time() + 2.5 * messages.HEARTBEAT_TIMEOUT_MS / 1000
-    state = await until(homed, lambda s: s.received_at_s > end_s)
-    assert state.enabled
-    assert state.fault is None
-
-
-async def test_the_firmware_of_another_version_is_named(tmp_path: Path) -> None:
-    with (
-        board_cable(tmp_path, protocol_hash=0x1234ABCD) as cable,
-        pytest.raises(WrongFirmwareError, match=r"firmware 1\.2\.3 .*1234ABCD.*Flash"),
-    ):
-        await robot_at(cable).connect()
-
-
-async def test_a_port_where_nothing_answers(
-    cable: BoardCable, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(handshake, "BOOT_S", 0.05)
-    monkeypatch.setattr(handshake, "ANSWER_S", 0.2)
-    cable.change(lambda board: setattr(board, "mute", True))
-    with pytest.raises(BoardSilentError, match="no motion board answers"):
-        await robot_at(cable).connect()
-
-
-async def test_without_a_link_every_command_says_so(tmp_path: Path) -> None:
-    robot = ArduinoRobot(str(tmp_path / "nothing"), GEOMETRY, LIMITS, BoardSettings())
-    with pytest.raises(BoardNotFoundError):
-        await robot.connect()
-    with pytest.raises(NotConnectedError):
-        await robot.enable()
-    with pytest.raises(NotConnectedError):
-        robot.telemetry()
-    await robot.close()
-    await robot.close()
-
-
-async def test_closing_stops_and_releases(homed: ArduinoRobot, cable: BoardCable) -> None:
-    plan = plan_joint_move(LIMITS, HOME, JointPosition(180, 170, 55))
-    await homed.push(plan_segments(plan, 0.02)[:12])
-    reader = homed.telemetry()
-    await homed.close()
-    with contextlib.suppress(StopAsyncIteration):
-        while True:
-            await anext(reader)
-    assert cable.board.state is messages.State.IDLE
-    assert cable.board.fault is messages.Fault.NONE
