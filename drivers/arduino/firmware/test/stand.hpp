@@ -1,5 +1,6 @@
 // A board on a test stand: pins that move carriages, a motor that moves the slide, switches.
 #pragma once
+#include "check.hpp"
 #include <cmath>
 #include <functional>
 
@@ -157,5 +158,23 @@ class Stand {
 
   double speed_ = 0;
 };
+
+inline bool homed(const Stand& s) { return s.report().flags & protocol::HOMED; }
+
+// In motion at 2000 steps/s on the rails, with a queue behind it.
+inline void start_motion(Stand& s) {
+  s.home();
+  CHECK_EQUAL(s.ramp(2000, -2000, 0), protocol::Refusal::NONE);
+  for (int i = 0; i < 8; ++i) CHECK_EQUAL(s.ramp(2000, -2000, 0), protocol::Refusal::NONE);
+  s.run(60);
+  CHECK_EQUAL(s.board.state(), protocol::State::RUN);
+}
+
+inline void latched(Stand& s, protocol::Fault fault, bool drives_on) {
+  CHECK(s.run_until([&] { return !s.board.moving(); }, 2000) >= 0);
+  CHECK_EQUAL(s.board.state(), protocol::State::FAULT);
+  CHECK_EQUAL(s.board.fault(), fault);
+  CHECK_EQUAL(s.board.drives_on(), drives_on);
+}
 
 }  // namespace stand
