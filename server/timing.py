@@ -85,6 +85,9 @@ class VirtualTimeLoop(asyncio.SelectorEventLoop):
     def __init__(self) -> None:
         self._skipping = _SkippingSelector()
         super().__init__(self._skipping)
+        # How early asyncio may call a timer. Its default of 1 ns is lost in rounding once the
+        # clock shows months: a timer that is due exactly now would never be.
+        self._clock_resolution = 1e-6
 
     def time(self) -> float:
         """Virtual time since the loop was made [s]."""
