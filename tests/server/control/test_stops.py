@@ -255,12 +255,12 @@ def test_only_a_stall_is_released_without_a_person() -> None:
             await supervisor.stop()
             await supervisor.release_stall(lease)
             assert supervisor.fault is None
-            assert supervisor.mode is RobotMode.STOPPED, "a person's stop stays"
+            assert cell.mode() is RobotMode.STOPPED, "a person's stop stays"
             await supervisor.reset()
             cell.garage.robot.free_jam()
             await supervisor.emergency_stop()
             await wait_until(lambda: supervisor.fault is not None)
             await supervisor.release_stall(lease)
-            assert supervisor.mode is RobotMode.EMERGENCY_STOP
+            assert cell.mode() is RobotMode.EMERGENCY_STOP
 
     in_cell(scenario)
