@@ -14,7 +14,7 @@ def test_it_reads_regularly_and_says_when_the_station_is_silent() -> None:
         watch = StationWatch(station, 1.0, lambda: changes.append(watch.online))
         await watch.start()
         assert [watch.online] == [False], "the station is not open yet"
-        assert watch.snapshot is None
+        assert [watch.snapshot] == [None]
         await station.open()
         await asyncio.sleep(3.5)
         assert watch.online
