@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from server.cli import main
+from server.cli.simulated_job import as_table
 from server.config.settings import Settings
 from server.jobs.model import JobPhase, JobState, JobType
 from server.schema.jobs import JobRequest
@@ -47,7 +48,7 @@ def test_the_truth_is_not_what_the_robot_believes(outcome: SimulatedJob) -> None
     assert outcome.max_force_n >= (outcome.job.result.max_force_n or 0.0)
 
 
-def test_one_job_as_json_and_as_a_table(clean_environment: Path) -> None:
+def test_one_job_as_json(clean_environment: Path) -> None:
     del clean_environment
     run = CliRunner().invoke(main, ["simulate", "job", "--seed", "3", "--json"])
     assert run.exit_code == 0, run.output
@@ -58,9 +59,12 @@ def test_one_job_as_json_and_as_a_table(clean_environment: Path) -> None:
     assert document["error"] is None
     assert 1.0 < document["duration_s"] / document["limit_duration_s"] <= 1.25
 
-    run = CliRunner().invoke(main, ["simulate", "job", "--seed", "3"])
-    assert "inserting" in run.output
-    assert f"Plugged in after {document['duration_s']:.2f} s" in run.output
+
+def test_a_job_as_a_table(outcome: SimulatedJob) -> None:
+    table = as_table(outcome)
+    assert "inserting" in table
+    assert f"Plugged in after {outcome.duration_s:.2f} s" in table
+    assert "The job succeeded." in table
 
 
 def test_a_job_that_fails_says_why_and_exits_with_1(clean_environment: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from server.control.model import PlugState
+from server.control.model import PlugState, RobotMode
 from server.jobs.errors import JobEndedError, JobNotFoundError, NotChargingError
 from server.jobs.model import JobPhase, JobState, JobType
 from tests.support.garage import Scene, on_scene, shift_car
@@ -47,6 +47,22 @@ def test_a_cancelled_job_ends_parked(
         await _assert_back(scene)
 
     on_scene(scenario, seed=4)
+
+
+def test_cancelling_while_homing_leaves_the_robot_still() -> None:
+    async def scenario(scene: Scene) -> None:
+        supervisor = scene.services.supervisor
+        job = await scene.start(JobType.PLUG_IN)
+        await scene.until(lambda: supervisor.mode is RobotMode.HOMING)
+        await scene.later(1.0)
+        await scene.services.runner.cancel(job.id)
+        assert (await scene.ended(job)).state is JobState.CANCELLED
+        assert (await scene.events(job))[-1].message.endswith("stays where it is.")
+        assert await scene.still(2.0)
+        assert supervisor.mode is RobotMode.NOT_HOMED
+        assert supervisor.holder is None
+
+    on_scene(scenario, seed=4, parked=False)
 
 
 def test_cancelling_while_measuring_ends_parked() -> None:

@@ -14,7 +14,6 @@ DECELERATION_S = 0.5
 @pytest.mark.parametrize(
     ("phase", "plug", "emergency"),
     [
-        (JobPhase.ALIGNING, PlugState.FREE, False),
         (JobPhase.ALIGNING, PlugState.FREE, True),
         (JobPhase.INSERTING, PlugState.INSERTED, False),
         (JobPhase.INSERTING, PlugState.INSERTED, True),
