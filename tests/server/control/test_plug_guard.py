@@ -69,8 +69,14 @@ class AnySequenceOfCalls(RuleBasedStateMachine):
         sideways=st.sampled_from([0.0, 0.0, 1e-9, 0.04, -0.04, 0.3, -5.0]),
         along=st.sampled_from([-30.0, -5.0, -0.04, 0.0, 0.04, 0.4, 10.0, 60.0]),
         carriage=st.sampled_from([0, 1]),
+        times=st.sampled_from([1, 1, 4]),
     )
-    def move(self, sideways: float, along: float, carriage: int) -> None:
+    def move(self, sideways: float, along: float, carriage: int, times: int) -> None:
+        """The same motion, also several times in a row."""
+        for _ in range(times):
+            self.move_once(sideways, along, carriage)
+
+    def move_once(self, sideways: float, along: float, carriage: int) -> None:
         target = list(self.joints)
         target[carriage] += sideways
         target[2] += along
@@ -83,11 +89,13 @@ class AnySequenceOfCalls(RuleBasedStateMachine):
             if sideways == 0.0 and along <= 0.0:
                 raise AssertionError("the way out must always be open") from None
             return
-        self.joints = end
         if self.entering:
             self.entering = False
-            self.held_at = None
-            assert along <= 0 or end.rho3_mm <= 115.05, "no deeper than the socket"
+            if self.held_at is not None:
+                self.held_at = self.held_at._replace(rho3_mm=end.rho3_mm)
+            deepest_mm = max(115.0, self.joints.rho3_mm)
+            assert end.rho3_mm <= deepest_mm + 0.0501, "no deeper than the socket"
+        self.joints = end
         self.guard.motion_ended()
 
     @invariant()
