@@ -197,7 +197,7 @@ def test_a_newcomer_takes_no_change_away_from_those_who_watch_already() -> None:
         await asyncio.sleep(0.5)
         a.value = 1
         hub.changed("a")
-        await asyncio.sleep(0)
+        await asyncio.sleep(0.01)
         a.value = 2
         hub.changed("a")  # waits for its turn, when somebody else comes
         second = Watcher(hub)

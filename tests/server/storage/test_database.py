@@ -174,6 +174,24 @@ def test_a_full_disk_keeps_nothing_of_the_piece_of_work(tmp_path: Path) -> None:
     run_virtual(scenario())
 
 
+def test_commits_reach_the_disk_and_not_only_the_systems_memory(tmp_path: Path) -> None:
+    """A power cut cannot be tested; that SQLite is told to flush every commit can."""
+
+    async def scenario() -> None:
+        database = await opened(tmp_path)
+
+        def modes(session: Session) -> tuple[object, object]:
+            return (
+                session.scalar(text("PRAGMA synchronous")),
+                session.scalar(text("PRAGMA journal_mode")),
+            )
+
+        assert await database.run(modes) == (2, "wal")
+        await database.close()
+
+    run_virtual(scenario())
+
+
 WRITER = """
 import asyncio, sys
 from pathlib import Path
