@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import signal
@@ -101,6 +102,24 @@ def test_a_killed_job_has_failed_after_the_restart(tmp_path: Path) -> None:
         assert client.post("jobs", json={"type": "plug_in"}).json()["code"] == "plug_state"
         events = client.get(f"jobs/{job['id']}/events").json()["items"]
         assert [event["sequence"] for event in events] == list(range(1, len(events) + 1))
+
+
+async def test_requests_that_come_at_the_same_time_give_one_job() -> None:
+    with serving() as server:
+        async with httpx.AsyncClient(
+            base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0
+        ) as client:
+            key = {"Idempotency-Key": "twice"}
+            answers = await asyncio.gather(
+                *(client.post("jobs", json={"type": "plug_in"}, headers=key) for _ in range(10))
+            )
+            assert {answer.status_code for answer in answers} == {202}
+            assert len({answer.json()["id"] for answer in answers}) == 1
+            others = await asyncio.gather(
+                *(client.post("jobs", json={"type": "plug_in"}) for _ in range(5))
+            )
+            assert {answer.json()["code"] for answer in others} == {"job_running"}
+            assert len((await client.get("jobs")).json()["items"]) == 1
 
 
 def test_an_error_inside_is_a_problem_on_a_real_socket_too(tmp_path: Path) -> None:

@@ -155,6 +155,12 @@ def test_a_fault_of_the_drives_is_no_locked_connector() -> None:
         assert ended.error.code == "robot_fault"
         assert ended.error.context["fault"] == "limit_switch"
         assert await scene.still()
+        # the way out is known, but no longer where the robot is: back along the axis it goes
+        assert not scene.services.supervisor.telemetry.require().homed
+        scene.garage.robot.mend_limit(0)
+        await scene.services.supervisor.reset()
+        assert (await scene.carried_out(JobType.UNPLUG)).error is None
+        assert scene.truth().lateral_violation_mm == 0
 
     on_scene(scenario, seed=4)
 
