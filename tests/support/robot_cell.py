@@ -7,8 +7,8 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from drivers.camera import pi_camera_v2
 from drivers.robot import RobotState
-from drivers.simulator.camera import default_optics
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.parameters import SimulationParameters
 from server.control.jog import Jog
@@ -110,7 +110,7 @@ async def robot_cell(
 ) -> AsyncIterator[RobotCell]:
     """A running supervisor."""
     garage = build_garage(
-        GEOMETRY, LIMITS, CameraMount(), default_optics(), numbers or parameters(), seed=seed
+        GEOMETRY, LIMITS, CameraMount(), pi_camera_v2(), numbers or parameters(), seed=seed
     )
     store = store or MemoryPlug()
     supervisor = Supervisor(garage.robot, GEOMETRY, LIMITS, store, Calendar())

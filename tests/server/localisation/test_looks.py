@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from drivers.simulator.camera import default_optics
+from drivers.camera import pi_camera_v2
 from drivers.simulator.car import park
 from drivers.simulator.parameters import CarParameters, ContactParameters
 from server.config.settings import Settings
@@ -17,7 +17,7 @@ from twin.camera_mount import CameraMount
 from twin.kinematics import PlatformPosition, alpha, gamma
 
 SETTINGS = Settings()
-OPTICS = default_optics()
+OPTICS = pi_camera_v2()
 PLUG_LENGTH_MM = 300.0
 CARS = 400
 
