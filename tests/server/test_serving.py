@@ -11,12 +11,16 @@ import sqlite3
 import subprocess
 import sys
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
 from websockets.sync.client import connect
 
+from tests.support.eventually import eventually
 from tests.support.process import READY, ServerProcess, serving, start
 
 ENDS_WITHIN_S = 3.0
@@ -50,10 +54,23 @@ def _rest(server: ServerProcess) -> httpx.Client:
     return httpx.Client(base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0)
 
 
-def _until_phase(client: httpx.Client, job_id: str, phase: str) -> None:
+def _until(condition: Callable[[], bool]) -> None:
     deadline_s = time.monotonic() + 30.0
-    while client.get(f"jobs/{job_id}").json()["phase"] != phase:
+    while not condition():
         assert time.monotonic() < deadline_s
+
+
+def _robot(client: httpx.Client) -> dict[str, Any]:
+    state: dict[str, Any] = client.get("robot").json()
+    return state
+
+
+def _plug_in(client: httpx.Client) -> str:
+    """Begin a job as soon as the motion board is there; gives its id."""
+    _until(lambda: _robot(client)["mode"] != "offline")
+    answer = client.post("jobs", json={"type": "plug_in"})
+    assert answer.status_code == 202, answer.text
+    return str(answer.json()["id"])
 
 
 def test_it_says_where_it_is_once_and_ends_soon_with_everybody_watching(tmp_path: Path) -> None:
@@ -69,9 +86,8 @@ def test_it_says_where_it_is_once_and_ends_soon_with_everybody_watching(tmp_path
         next(stream.iter_bytes())
         watcher.recv()
         with _rest(server) as other:
-            other.post("jobs", json={"type": "plug_in"})
-            while other.get("robot").json()["mode"] != "homing":
-                pass
+            _plug_in(other)
+            _until(lambda: _robot(other)["mode"] == "homing")
         asked_s = time.monotonic()
         server.process.send_signal(signal.SIGTERM)
         status = server.process.wait(20)
@@ -88,20 +104,25 @@ def test_it_says_where_it_is_once_and_ends_soon_with_everybody_watching(tmp_path
 
 def test_a_killed_job_has_failed_after_the_restart(tmp_path: Path) -> None:
     with serving("--speed=20", data_dir=tmp_path) as server, _rest(server) as client:
-        job = client.post("jobs", json={"type": "plug_in"}).json()
-        _until_phase(client, job["id"], "inserting")
-        while client.get("robot").json()["plug"] != "inserted":
-            pass
+        job_id = _plug_in(client)
+        # moving in means that the plug's new place is on disk already
+        going_in = {"plug": "inserted", "mode": "moving"}
+        _until(lambda: going_in.items() <= _robot(client).items())
         server.kill()
     with serving("--speed=20", data_dir=tmp_path) as server, _rest(server) as client:
-        ended = client.get(f"jobs/{job['id']}").json()
+        _until(lambda: _robot(client)["mode"] != "offline")
+        ended = client.get(f"jobs/{job_id}").json()
         assert ended["state"] == "failed"
         assert ended["error"]["code"] == "interrupted"
         assert ended["error"]["remedy"]
         assert client.get("robot").json()["plug"] == "unknown"
         assert client.post("jobs", json={"type": "plug_in"}).json()["code"] == "plug_state"
-        events = client.get(f"jobs/{job['id']}/events").json()["items"]
+        events = client.get(f"jobs/{job_id}/events").json()["items"]
         assert [event["sequence"] for event in events] == list(range(1, len(events) + 1))
+
+
+async def _is_connected(client: httpx.AsyncClient) -> bool:
+    return bool((await client.get("robot")).json()["mode"] != "offline")
 
 
 async def test_requests_that_come_at_the_same_time_give_one_job() -> None:
@@ -109,6 +130,7 @@ async def test_requests_that_come_at_the_same_time_give_one_job() -> None:
         async with httpx.AsyncClient(
             base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0
         ) as client:
+            await eventually(partial(_is_connected, client))
             key = {"Idempotency-Key": "twice"}
             answers = await asyncio.gather(
                 *(client.post("jobs", json={"type": "plug_in"}, headers=key) for _ in range(10))

@@ -13,6 +13,7 @@ import zxingcpp
 
 from drivers.simulator.camera.imaging import CameraFault
 from tests.support.api import on_api, problem
+from tests.support.eventually import eventually
 from tests.support.garage import Scene
 from tests.support.process import ServerProcess, serving
 
@@ -58,10 +59,14 @@ def _decoded(jpeg: bytes) -> np.ndarray:
     return image
 
 
+async def _done(client: httpx.AsyncClient, address: str) -> bool:
+    return (await client.post(address, timeout=20.0)).status_code == 200
+
+
 async def test_a_snapshot_shows_the_label(server: ServerProcess) -> None:
     async with httpx.AsyncClient(trust_env=False) as client:
-        await client.post(f"{server.url}/api/v1/robot/enable")
-        await client.post(f"{server.url}/api/v1/robot/home", timeout=20.0)
+        await eventually(lambda: _done(client, f"{server.url}/api/v1/robot/enable"))
+        assert await _done(client, f"{server.url}/api/v1/robot/home")
         answer = await client.get(f"{server.url}/api/v1/camera/snapshot.jpg")
     assert answer.headers["content-type"] == "image/jpeg"
     assert answer.headers["cache-control"] == "no-store"

@@ -78,6 +78,8 @@ class Page:
 
     async def make_ready(self, client: httpx.AsyncClient) -> None:
         """Release what an earlier test left behind, and home when needed."""
+        while self.live["robot"]["mode"] == "offline":
+            await self.take()
         await client.post("robot/reset")
         for step in ("enable", *([] if self.live["robot"]["homed"] else ["home"])):
             answer = await client.post(f"robot/{step}")
