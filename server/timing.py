@@ -23,9 +23,11 @@ if TYPE_CHECKING:
 
 Ts = TypeVarTuple("Ts")
 
-
 MAX_LAG_S = 0.25
 """Scaled time that a clock may be behind and still make up for."""
+
+MAX_DRIFT = timedelta(milliseconds=100)
+"""Dates and the wall clock may differ by this much."""
 
 
 class NothingLeftToWaitForError(RuntimeError):
@@ -162,6 +164,9 @@ class ScaledTimeLoop(asyncio.SelectorEventLoop):
 class Calendar:
     """Turns event loop times into dates.
 
+    An instant keeps its date as long as the loop's clock keeps step with the wall clock. When the
+    two have drifted apart, as they do when a simulated clock slows down, dates follow the wall.
+
     Args:
         speed: Seconds of the loop per second of the wall clock; dates stay wall-clock dates.
         loop: The loop; the running one by default.
@@ -170,15 +175,21 @@ class Calendar:
     def __init__(self, speed: float = 1.0, loop: asyncio.AbstractEventLoop | None = None) -> None:
         self._loop = loop or asyncio.get_running_loop()
         self._speed = speed
-        self._origin = datetime.now(UTC)
+        self._origin = datetime.now(UTC) - timedelta(seconds=self._loop.time() / speed)
 
     def now(self) -> datetime:
         """The date now."""
         return self.at(self._loop.time())
 
     def at(self, loop_time_s: float) -> datetime:
-        """The date at an event loop time, counted back from now: a slow clock does not add up."""
-        if isinstance(self._loop, VirtualTimeLoop):
-            return self._origin + timedelta(seconds=loop_time_s)
-        ago_s = (self._loop.time() - loop_time_s) / self._speed
-        return datetime.now(UTC) - timedelta(seconds=ago_s)
+        """The date at an event loop time."""
+        if not isinstance(self._loop, VirtualTimeLoop):
+            self._follow_the_wall()
+        return self._origin + timedelta(seconds=loop_time_s / self._speed)
+
+    def _follow_the_wall(self) -> None:
+        drift = (
+            datetime.now(UTC) - self._origin - timedelta(seconds=self._loop.time() / self._speed)
+        )
+        if abs(drift) > MAX_DRIFT:
+            self._origin += drift
