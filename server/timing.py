@@ -174,8 +174,10 @@ class Calendar:
 
     def __init__(self, speed: float = 1.0, loop: asyncio.AbstractEventLoop | None = None) -> None:
         self._loop = loop or asyncio.get_running_loop()
-        self._speed = speed
-        self._origin = datetime.now(UTC) - timedelta(seconds=self._loop.time() / speed)
+        self._virtual = isinstance(self._loop, VirtualTimeLoop)
+        # Virtual time has no wall clock beside it: its seconds are the seconds of its dates.
+        self._speed = 1.0 if self._virtual else speed
+        self._origin = datetime.now(UTC) - timedelta(seconds=self._loop.time() / self._speed)
 
     def now(self) -> datetime:
         """The date now."""
@@ -183,7 +185,7 @@ class Calendar:
 
     def at(self, loop_time_s: float) -> datetime:
         """The date at an event loop time."""
-        if not isinstance(self._loop, VirtualTimeLoop):
+        if not self._virtual:
             self._follow_the_wall()
         return self._origin + timedelta(seconds=loop_time_s / self._speed)
 
