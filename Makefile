@@ -16,11 +16,11 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format bench lock clean setup-dev system-packages \
+.PHONY: help setup run test lint format bench campaign lock clean setup-dev system-packages \
 	check-style check-types check-web test-python test-web
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-8s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' Makefile
 
 setup: $(VENV)/.project ## install PlugPilot and build its pages, once
 
@@ -42,6 +42,9 @@ bench: setup-dev ## run the benchmarks
 		name=$$(basename $$file .py); echo "-- $$name"; \
 		$(BIN)/python -m tests.bench.$$name || exit 1; \
 	done
+
+campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
+	@$(BIN)/plugpilot simulate campaign $(ARGS)
 
 lock: $(BIN)/python ## write the lock files; UPGRADE=--upgrade takes the newest allowed versions
 	@$(PIP) "uv>=0.8,<1"
@@ -97,6 +100,7 @@ $(VENV)/.project: $(VENV)/.requirements pyproject.toml $(WEB_SOURCES)
 	@.ci/ensure-node $(BIN)
 	@echo "Building the web pages and installing PlugPilot ..."
 	@$(PIP) --no-deps --no-build-isolation --editable .
+	@$(BIN)/python -m compileall -q server twin drivers
 	@touch $@
 
 $(VENV)/.development: $(VENV)/.requirements requirements-dev.lock

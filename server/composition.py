@@ -53,7 +53,11 @@ class DriverChoiceError(ConfigurationError):
 
 @contextlib.asynccontextmanager
 async def running(
-    settings: Settings, *, folder: Path | None, twin: TwinHost | None = None
+    settings: Settings,
+    *,
+    folder: Path | None,
+    twin: TwinHost | None = None,
+    wait_for_robot: bool = True,
 ) -> AsyncIterator[Services]:
     """Start everything, and stop it in the opposite order.
 
@@ -61,6 +65,8 @@ async def running(
         settings: The whole configuration.
         folder: Where data is kept; None keeps it in memory.
         twin: The 3D picture to feed, if any; started by the caller.
+        wait_for_robot: Be ready only after the first attempt to reach the motion board. Pages
+            need not wait for that: a board takes a second to start.
 
     Raises:
         ConfigurationError: a driver does not exist.
@@ -121,7 +127,7 @@ async def running(
             garage=devices.garage,
         )
         _show(services)
-        await supervisor.start()
+        await supervisor.start(wait=wait_for_robot)
         stack.push_async_callback(supervisor.close)
         await runner.start()
         stack.push_async_callback(runner.close)

@@ -76,7 +76,9 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
         aspect=optics.width / optics.height,
     )
-    async with running(settings, folder=settings.storage.data_dir, twin=twin) as services:
+    async with running(
+        settings, folder=settings.storage.data_dir, twin=twin, wait_for_robot=False
+    ) as services:
         app = create_app(lambda: contextlib.nullcontext(services), twin)
         config = _uvicorn_config(app, settings.clock_speed)
         server = _Server(config, _address(listener), when_ready=twin.start)

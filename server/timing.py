@@ -23,9 +23,11 @@ if TYPE_CHECKING:
 
 Ts = TypeVarTuple("Ts")
 
-
 MAX_LAG_S = 0.25
 """Scaled time that a clock may be behind and still make up for."""
+
+MAX_DRIFT = timedelta(milliseconds=100)
+"""Dates and the wall clock may differ by this much."""
 
 
 class NothingLeftToWaitForError(RuntimeError):
@@ -85,6 +87,9 @@ class VirtualTimeLoop(asyncio.SelectorEventLoop):
     def __init__(self) -> None:
         self._skipping = _SkippingSelector()
         super().__init__(self._skipping)
+        # How early asyncio may call a timer. Its default of 1 ns is lost in rounding once the
+        # clock shows months: a timer that is due exactly now would never be.
+        self._clock_resolution = 1e-6
 
     def time(self) -> float:
         """Virtual time since the loop was made [s]."""
@@ -159,6 +164,9 @@ class ScaledTimeLoop(asyncio.SelectorEventLoop):
 class Calendar:
     """Turns event loop times into dates.
 
+    An instant keeps its date as long as the loop's clock keeps step with the wall clock. When the
+    two have drifted apart, as they do when a simulated clock slows down, dates follow the wall.
+
     Args:
         speed: Seconds of the loop per second of the wall clock; dates stay wall-clock dates.
         loop: The loop; the running one by default.
@@ -166,16 +174,24 @@ class Calendar:
 
     def __init__(self, speed: float = 1.0, loop: asyncio.AbstractEventLoop | None = None) -> None:
         self._loop = loop or asyncio.get_running_loop()
-        self._speed = speed
-        self._origin = datetime.now(UTC)
+        self._virtual = isinstance(self._loop, VirtualTimeLoop)
+        # Virtual time has no wall clock beside it: its seconds are the seconds of its dates.
+        self._speed = 1.0 if self._virtual else speed
+        self._origin = datetime.now(UTC) - timedelta(seconds=self._loop.time() / self._speed)
 
     def now(self) -> datetime:
         """The date now."""
         return self.at(self._loop.time())
 
     def at(self, loop_time_s: float) -> datetime:
-        """The date at an event loop time, counted back from now: a slow clock does not add up."""
-        if isinstance(self._loop, VirtualTimeLoop):
-            return self._origin + timedelta(seconds=loop_time_s)
-        ago_s = (self._loop.time() - loop_time_s) / self._speed
-        return datetime.now(UTC) - timedelta(seconds=ago_s)
+        """The date at an event loop time."""
+        if not self._virtual:
+            self._follow_the_wall()
+        return self._origin + timedelta(seconds=loop_time_s / self._speed)
+
+    def _follow_the_wall(self) -> None:
+        drift = (
+            datetime.now(UTC) - self._origin - timedelta(seconds=self._loop.time() / self._speed)
+        )
+        if abs(drift) > MAX_DRIFT:
+            self._origin += drift

@@ -108,7 +108,7 @@ def test_no_module_needs_itself() -> None:
         ("server.vision.locator", "from drivers.simulator.view import CameraView", True),
         ("server.control.supervisor", "from server.jobs.errors import JobError", True),
         ("server.jobs.runner", "from server.control.supervisor import Supervisor", False),
-        ("server.jobs.runner", "from server.api.schema.jobs import JobView", False),
+        ("server.jobs.runner", "from server.schema.jobs import JobView", False),
         ("server.api.app", "import server.cli", True),
         ("server.api.app", "import tests.support.imports", True),
         ("server.api.app", "import serverless", False),

@@ -10,6 +10,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import Response
 from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from server.api.errors import InvalidRequestError, MalformedJsonError, MethodError, NotFoundError
 from server.errors import InternalError, PlugPilotError
@@ -41,7 +42,7 @@ def install_handlers(app: FastAPI) -> None:
     app.add_exception_handler(PlugPilotError, _on_own_error)
     app.add_exception_handler(RequestValidationError, _on_invalid_request)
     app.add_exception_handler(HTTPException, _on_http_error)
-    app.add_exception_handler(Exception, _on_surprise)
+    app.add_middleware(_SurpriseMiddleware)
 
 
 def respond(error: PlugPilotError, headers: dict[str, str] | None = None) -> Response:
@@ -100,6 +101,29 @@ def _on_http_error(request: Request, error: Exception) -> Response:
             )
 
 
-def _on_surprise(request: Request, error: Exception) -> Response:
-    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
-    return respond(InternalError("The request could not be carried out. The log has the details."))
+class _SurpriseMiddleware:
+    """Answers errors that nobody thought of.
+
+    A handler for Exception would not do: Starlette raises the error again after it, and uvicorn
+    then cuts the connection before the answer is through.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        began = False
+
+        async def watched(message: Message) -> None:
+            nonlocal began
+            began = True
+            await send(message)
+
+        try:
+            await self._app(scope, receive, watched)
+        except Exception:
+            if scope["type"] != "http" or began:
+                raise
+            _log.exception("%s %s failed", scope["method"], scope["path"])
+            problem = InternalError("The request could not be carried out. The log says why.")
+            await respond(problem)(scope, receive, send)

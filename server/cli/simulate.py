@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import click
@@ -31,6 +32,13 @@ _energy = click.option(
 _json = click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 
 
+_SIMULATORS = [
+    Option("this command", f"{device}.driver", "simulator")
+    for device in ("robot", "camera", "station")
+]
+"""A configuration made for a real robot can be tried out; nothing of it moves."""
+
+
 @click.group()
 def simulate() -> None:
     """Run jobs on the simulator in virtual time, as fast as they can be computed."""
@@ -46,7 +54,8 @@ def job(
     *, seed: str | None, job_type: str, energy_wh: float | None, as_json: bool, config: Path | None
 ) -> None:
     """Run one job; exit status 1 when it did not succeed."""
-    settings = load_settings(config, [Option("--seed", "simulation.seed", seed)])
+    _check_energy(job_type, energy_wh)
+    settings = load_settings(config, [Option("--seed", "simulation.seed", seed), *_SIMULATORS])
     # imported late: wrong settings are told without waiting for vision to load
     from server.cli.simulated_job import as_document, as_table  # noqa: PLC0415
     from server.schema.jobs import JobRequest  # noqa: PLC0415
@@ -69,8 +78,9 @@ def campaign(
     *, seeds: str, job_type: str, energy_wh: float | None, as_json: bool, config: Path | None
 ) -> None:
     """Run one job for each of many seeds; exit status 1 when one did not succeed."""
+    _check_energy(job_type, energy_wh)
     numbers = _seeds(seeds)
-    settings = load_settings(config, [])
+    settings = load_settings(config, _SIMULATORS)
     from server.cli.simulated_job import as_document, as_line, as_summary  # noqa: PLC0415
     from server.schema.jobs import JobRequest  # noqa: PLC0415
     from server.simulation import simulate as run  # noqa: PLC0415
@@ -85,6 +95,13 @@ def campaign(
         click.echo(as_summary(outcomes))
     if not all(outcome.succeeded for outcome in outcomes):
         raise SystemExit(1)
+
+
+def _check_energy(job_type: str, energy_wh: float | None) -> None:
+    if energy_wh is not None and job_type != JobType.CHARGE.value:
+        raise click.BadParameter("goes with --type charge only.", param_hint="--energy-wh")
+    if energy_wh is not None and not math.isfinite(energy_wh):  # a range lets NaN through
+        raise click.BadParameter(f"{energy_wh} is not a number.", param_hint="--energy-wh")
 
 
 def _seeds(text: str) -> range:

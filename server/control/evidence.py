@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from drivers.robot import RobotState
+from drivers.robot import FaultCode, RobotState
 from server.control.model import PlugState
 from server.control.plug_guard import PlugGuard
 
@@ -17,6 +17,9 @@ async def settle_plug(plug: PlugGuard, state: RobotState, *, first: bool) -> Non
         state: A telemetry sample.
         first: It is the first one of a new link: what happened before it, nobody has seen.
     """
+    if plug.state in {PlugState.PARKED, PlugState.FREE} and _pushed_in_vain(state):
+        # Somebody may have jogged the plug into a socket.
+        await plug.doubt()
     if plug.state is PlugState.PARKED and not state.homed:
         await plug.is_free()
     if plug.state is PlugState.INSERTED:
@@ -24,6 +27,10 @@ async def settle_plug(plug: PlugGuard, state: RobotState, *, first: bool) -> Non
         known = state.homed and plug.corridor is not None
         if not known or (first and not _in_corridor(plug, state)):
             await plug.doubt()
+
+
+def _pushed_in_vain(state: RobotState) -> bool:
+    return state.fault is not None and state.fault.code is FaultCode.STALL
 
 
 def _in_corridor(plug: PlugGuard, state: RobotState) -> bool:

@@ -45,10 +45,15 @@ class RobotLink:
         self._task: asyncio.Task[None] | None = None
         self._attempted = asyncio.Event()
 
-    async def start(self) -> None:
-        """Begin connecting; returns after the first attempt, whether it worked or not."""
+    async def start(self, *, wait: bool = True) -> None:
+        """Begin connecting.
+
+        Args:
+            wait: Return only after the first attempt, whether it worked or not.
+        """
         self._task = asyncio.create_task(self._run(), name="robot link")
-        await self._attempted.wait()
+        if wait:
+            await self._attempted.wait()
 
     async def close(self) -> None:
         """Stop the robot and let go of it; whoever waits for telemetry learns that it ended."""

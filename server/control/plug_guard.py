@@ -7,6 +7,7 @@ is never more optimistic than the truth.
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
@@ -111,7 +112,9 @@ class PlugGuard:
         """If it was the motion into the socket: from now on only withdrawal is allowed."""
         if self._may_enter:
             self._may_enter = False
-            self._held_at = None
+            if self._held_at is not None:
+                # As deep as the next motion finds it.
+                self._held_at = self._held_at._replace(rho3_mm=math.inf)
 
     async def is_free(self) -> None:
         """The plug is clear of every socket: measured, or confirmed by a person."""
@@ -152,7 +155,7 @@ class PlugGuard:
             )
         allowed_mm = held_at.rho3_mm
         if self._may_enter and self.corridor is not None:
-            allowed_mm = self.corridor.depth_rho3_mm
+            allowed_mm = max(allowed_mm, self.corridor.depth_rho3_mm)
         excess_mm = max(q.rho3_mm for q in waypoints) - allowed_mm
         if not excess_mm <= LATERAL_TOLERANCE_MM:
             raise LateralMotionForbiddenError(
@@ -186,7 +189,8 @@ class PlugGuard:
 
     def _take_over(self, record: PlugRecord) -> None:
         if record != self._record:
+            if not {record.state, self._record.state} <= HELD:
+                self._held_at = None
             self._record = record
-            self._held_at = None
             self._may_enter = False
             self._changed()

@@ -111,13 +111,14 @@ class Supervisor:
 
     # Life
 
-    async def start(self) -> None:
+    async def start(self, *, wait: bool = True) -> None:
         """Take up the plug's record and keep a link to the board from now on.
 
-        Returns after the first attempt to connect, whether it worked or not.
+        Args:
+            wait: Return only after the first attempt to connect, whether it worked or not.
         """
         await self.plug.recover()
-        await self._link.start()
+        await self._link.start(wait=wait)
 
     async def close(self) -> None:
         """Stop the robot and let go of it."""

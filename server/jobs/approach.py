@@ -40,12 +40,40 @@ def pre_insertion(
     except KinematicsError as error:
         entry = socket.entry
         raise SocketUnreachableError(
-            f"The socket is at x = {entry.x_mm:.0f}, y = {entry.y_mm:.0f}, "
-            f"z = {entry.z_mm:.0f} mm, and {error}.",
+            where_it_stands(geometry, entry, settings),
             x_mm=round(entry.x_mm, 1),
             y_mm=round(entry.y_mm, 1),
             z_mm=round(entry.z_mm, 1),
+            reason=str(error),
         ) from error
+
+
+def where_it_stands(
+    geometry: RobotGeometry, entry: TipPosition, settings: InsertionSettings
+) -> str:
+    """How far the socket is from where it should be, in words for whoever parked the car.
+
+    Left and right are those of a driver who faces the robot.
+    """
+    box, slide = geometry.regular_box, geometry.rho3
+    platform, rho3_mm = gamma.platform_for_tip(geometry, entry)
+    right_mm = platform.x_mm - box.center_x_mm
+    up_mm = platform.y_mm - box.center_y_mm
+    complaints = [
+        f"{excess_mm:.0f} mm too {direction}"
+        for excess_mm, direction in (
+            (rho3_mm + settings.depth_mm - slide.max_mm, "far from the robot"),
+            (slide.min_mm + settings.pre_insertion_distance_mm - rho3_mm, "near to the robot"),
+            (right_mm - box.width_mm / 2, "far to the right"),
+            (-right_mm - box.width_mm / 2, "far to the left"),
+            (up_mm - box.height_mm / 2, "high"),
+            (-up_mm - box.height_mm / 2, "low"),
+        )
+        if excess_mm >= 0.5
+    ]
+    if not complaints:
+        return "The socket is just outside what the robot can reach."
+    return f"The socket is {' and '.join(complaints)}."
 
 
 def corridor(

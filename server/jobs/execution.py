@@ -113,9 +113,13 @@ class Execution:
             self._work.cancel()
 
     def _where_it_is(self) -> str:
-        if self.context.supervisor.plug.state is PlugState.INSERTED:
-            return "Cancelled; the plug stays in the car."
-        return "Cancelled; the robot is back."
+        match self.context.supervisor.plug.state:
+            case PlugState.PARKED:
+                return "Cancelled; the robot is back in its parking place."
+            case PlugState.INSERTED:
+                return "Cancelled; the plug stays in the car."
+            case _:
+                return "Cancelled; the robot stays where it is."
 
 
 def _surprise(job: Job) -> InternalError:

@@ -24,8 +24,8 @@ LABEL_STEP_MM = 10.0
 LOOK_STEP_MM = 20.0
 LOOK_MARGIN_MM = 80.0
 """How far outside the regular box the platform may go to see more."""
-QUIET_ZONE = 1.16
-"""Code with the four quiet modules of a 25-module code that a reader needs, over the code alone."""
+MARGIN = 1.16
+"""A 25-module code with the two modules around it that the reader needs, over the code alone."""
 IMAGE_MARGIN_PX = 12.0
 SECONDS_PER_LOOK = 0.4
 TRAVEL_MM_S = 60.0
@@ -67,7 +67,7 @@ class LookPlanner:
         self._geometry = geometry
         self._mount = mount
         self._optics = optics
-        self._half_label_mm = 0.5 * QUIET_ZONE * vehicle.label_size_mm
+        self._half_label_mm = 0.5 * MARGIN * vehicle.label_size_mm
         face_rho3_mm = 0.5 * (
             geometry.rho3.min_mm + approach_mm + geometry.rho3.max_mm - insertion_depth_mm
         )

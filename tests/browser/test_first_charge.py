@@ -90,3 +90,18 @@ def test_a_job_that_is_not_possible_is_explained(phone: Page, server: ServerProc
 
     expect(phone.get_by_text("No car is known yet")).to_be_visible()
     assert httpx.get(f"{server.url}/api/v1/robot").json()["mode"] == "ready"
+
+
+def test_a_lost_server_is_said_without_pushing_the_page_aside(browser: Browser) -> None:
+    with serving("--speed", SPEED) as server:
+        context = browser.new_context(viewport={"width": PHONE["width"], "height": PHONE["height"]})
+        page = context.new_page()
+        page.goto(server.url)
+        expect(page.get_by_role("heading", level=1)).to_have_text("Ready when you are")
+
+        server.kill()
+
+        expect(page.get_by_role("heading", level=1)).to_have_text("Cannot reach the robot")
+        width_px = page.evaluate("document.documentElement.scrollWidth")
+        assert width_px <= PHONE["width"]
+        context.close()

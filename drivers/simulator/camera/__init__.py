@@ -2,6 +2,5 @@
 
 from drivers.simulator.camera.camera import SimulatedCamera
 from drivers.simulator.camera.imaging import CameraFault, ImagingParameters
-from drivers.simulator.camera.optics import default_optics
 
-__all__ = ["CameraFault", "ImagingParameters", "SimulatedCamera", "default_optics"]
+__all__ = ["CameraFault", "ImagingParameters", "SimulatedCamera"]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
+from functools import partial
 from typing import Any
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
@@ -36,6 +37,9 @@ POLICY_VIOLATION = 1008
 MAX_INVALID = 20
 MAX_UNANSWERED = 50
 """A client that sends so much without reading the answers is sent away."""
+
+
+Errand = Callable[[], Coroutine[Any, Any, None]]
 
 
 @router.websocket("/ws")
@@ -92,11 +96,14 @@ class _Connection:
             except ValidationError as error:
                 invalid += 1
                 detail = f"The message does not fit: {error.errors()[0]['msg']}."
-                self._begin(self._errands, self._reply(0, InvalidRequestError(detail)))
+                refusal = InvalidRequestError(detail)
+                self._begin(self._errands, partial(self._reply, 0, refusal))
                 continue
             is_stop = isinstance(message, StopMessage | EmergencyStopMessage)
-            self._begin(self._stops if is_stop else self._errands, self._answer(message))
-        await self._socket.close(POLICY_VIOLATION, "too many messages that do not fit")
+            self._begin(self._stops if is_stop else self._errands, partial(self._answer, message))
+        await self._socket.close(
+            POLICY_VIOLATION, "too many messages that do not fit, or unanswered"
+        )
 
     async def _next(self) -> str | bytes:
         try:
@@ -108,7 +115,7 @@ class _Connection:
         text: str | None = event.get("text")
         return text if text is not None else bytes(event["bytes"])
 
-    def _begin(self, tasks: set[asyncio.Task[None]], errand: Coroutine[Any, Any, None]) -> None:
+    def _begin(self, tasks: set[asyncio.Task[None]], errand: Errand) -> None:
         task = asyncio.create_task(self._until_gone(errand))
         tasks.add(task)
         task.add_done_callback(tasks.discard)
@@ -147,7 +154,7 @@ class _Connection:
     def _restart_pushing(self) -> None:
         if self._pushing is not None:
             self._pushing.cancel()
-        self._pushing = asyncio.create_task(self._until_gone(self._push()), name="live push")
+        self._pushing = asyncio.create_task(self._until_gone(self._push), name="live push")
 
     async def _push(self) -> None:
         async for message in self._services.live.watch():
@@ -167,8 +174,8 @@ class _Connection:
                 raise _GoneError from error
 
     @staticmethod
-    async def _until_gone(errand: Coroutine[Any, Any, None]) -> None:
+    async def _until_gone(errand: Errand) -> None:
         try:
-            await errand
+            await errand()
         except _GoneError:
             return  # the receiving side notices too and clears up

@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 
 from drivers.station import (
+    PilotState,
     StationCapabilities,
     StationDriver,
     StationError,
@@ -78,7 +79,9 @@ def why_not_safe(
             f"The newest reading of the charging station is {age_s:.1f} s old.",
             age_s=round(age_s, 1),
         )
-    if snapshot.carries_load or (capabilities.switches and snapshot.enabled):
+    # Enabled while it sees the car, a station may give power at any moment.
+    is_ready = capabilities.switches and snapshot.enabled and snapshot.pilot is not PilotState.A
+    if snapshot.carries_load or is_ready:
         current_a = round(max(snapshot.currents_a), 2)
         return StillUnderLoadError(
             f"The charging station gives {current_a:.1f} A or is about to "

@@ -20,7 +20,7 @@ from twin.motion import plan_straight_line
 
 _log = logging.getLogger(__name__)
 
-WATCH_S = 0.2
+WATCH_S = 0.1
 SILENCE_LIMIT_S = 1.0
 
 
@@ -40,6 +40,8 @@ async def run(job: JobContext) -> None:
     guard = _Guard(settings.withdrawal_force_limit_n)
     watching = asyncio.create_task(guard.watch_station(job.station), name="station watch")
     try:
+        await guard.first_reading.wait()
+        guard.raise_alarm()
         corridor = supervisor.plug.corridor
         if corridor is None or not supervisor.telemetry.require().homed:
             await _withdraw_blindly(job, guard)
@@ -97,6 +99,7 @@ class _Guard:
 
     def __init__(self, limit_n: float) -> None:
         self.forces = ForceWatch(pull_limit_n=limit_n)
+        self.first_reading = asyncio.Event()
         self.alarmed = asyncio.Event()
         self._alarm: PlugPilotError | None = None
 
@@ -111,17 +114,23 @@ class _Guard:
     async def watch_station(self, station: StationDriver) -> None:
         """Ends with an alarm, whatever happens to it: nobody pulls without a watch."""
         try:
-            self._alarm = await _first_sign_of_danger(station)
+            self._alarm = await _first_sign_of_danger(station, self.first_reading)
         except Exception:  # noqa: BLE001 - logged; whatever it is, the motion must stop
             _log.exception("the watch over the charging station failed")
             self._alarm = InternalError(
                 "The watch over the charging station failed. The log has the details."
             )
         self.alarmed.set()
+        self.first_reading.set()
 
 
-async def _first_sign_of_danger(station: StationDriver) -> JobError:
-    """Watch the station until something speaks against pulling the plug."""
+async def _first_sign_of_danger(station: StationDriver, reading: asyncio.Event) -> JobError:
+    """Watch the station until something speaks against pulling the plug.
+
+    Args:
+        station: The station.
+        reading: Set once a reading has shown that it is safe to begin.
+    """
     loop = asyncio.get_running_loop()
     heard_s = loop.time()
     while True:
@@ -138,4 +147,5 @@ async def _first_sign_of_danger(station: StationDriver) -> JobError:
             problem = why_not_safe(snapshot, station.capabilities, heard_s)
             if problem is not None:
                 return problem
+            reading.set()
         await asyncio.sleep(WATCH_S)

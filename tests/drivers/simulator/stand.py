@@ -6,8 +6,8 @@ import asyncio
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, TypeVar
 
+from drivers.camera import pi_camera_v2
 from drivers.robot import BoardState, RobotState
-from drivers.simulator.camera import default_optics
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.truth import lateral_at_face_mm
@@ -145,7 +145,7 @@ def on_stand(
 
     async def main() -> T:
         garage = build_garage(
-            GEOMETRY, LIMITS, CameraMount(), default_optics(), parameters, seed=seed
+            GEOMETRY, LIMITS, CameraMount(), pi_camera_v2(), parameters, seed=seed
         )
         await garage.robot.connect()
         await garage.robot.enable()

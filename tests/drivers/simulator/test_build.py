@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from drivers.camera import pi_camera_v2
 from drivers.simulator.build import built_geometry, built_mount, built_optics
-from drivers.simulator.camera import default_optics
 from drivers.simulator.parameters import BuildErrors, SimulationParameters
 from tests.drivers.simulator.stand import GEOMETRY
 from twin.camera_mount import CameraMount
@@ -43,7 +43,7 @@ def test_the_camera_sits_a_little_crooked() -> None:
 
 
 def test_the_optics_differ_from_the_data_sheet() -> None:
-    nominal = default_optics()
+    nominal = pi_camera_v2()
     built = [built_optics(nominal, ERRORS, np.random.default_rng(s)) for s in range(300)]
     assert np.std([o.cx - nominal.cx for o in built]) == pytest.approx(
         ERRORS.principal_point_std_px, rel=0.15
@@ -60,4 +60,4 @@ def test_a_perfect_machine_is_built_as_drawn() -> None:
     assert built_geometry(GEOMETRY, errors, rng) == GEOMETRY
     mount = CameraMount()
     assert built_mount(mount, errors, rng) == pytest.approx(mount.T_platform_camera, abs=1e-15)
-    assert built_optics(default_optics(), errors, rng) == default_optics()
+    assert built_optics(pi_camera_v2(), errors, rng) == pi_camera_v2()

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import pytest
 
+from drivers.camera import pi_camera_v2
 from drivers.robot import (
     BoardState,
     FaultCode,
@@ -14,7 +15,6 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
-from drivers.simulator.camera import default_optics
 from drivers.simulator.garage import build_garage
 from drivers.robot.telemetry_feed import KEPT_SAMPLES
 from tests.drivers.simulator.stand import GEOMETRY, HOMED, LIMITS, PERFECT, Stand, on_stand, run
@@ -37,9 +37,7 @@ def test_it_is_a_robot_driver() -> None:
 
 def test_nothing_works_before_the_link_is_open() -> None:
     async def main() -> None:
-        robot = build_garage(
-            GEOMETRY, LIMITS, CameraMount(), default_optics(), PERFECT, seed=1
-        ).robot
+        robot = build_garage(GEOMETRY, LIMITS, CameraMount(), pi_camera_v2(), PERFECT, seed=1).robot
         with pytest.raises(NotConnectedError):
             robot.telemetry()
         with pytest.raises(NotConnectedError):
@@ -206,9 +204,7 @@ def test_a_link_lost_during_homing_says_so() -> None:
 
 def test_connecting_to_an_unplugged_board_fails() -> None:
     async def main() -> None:
-        robot = build_garage(
-            GEOMETRY, LIMITS, CameraMount(), default_optics(), PERFECT, seed=1
-        ).robot
+        robot = build_garage(GEOMETRY, LIMITS, CameraMount(), pi_camera_v2(), PERFECT, seed=1).robot
         robot.unplug_link()
         with pytest.raises(NotConnectedError, match="USB"):
             await robot.connect()

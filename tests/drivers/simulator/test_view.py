@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 import zxingcpp
 
-from drivers.camera import Frame
-from drivers.simulator.camera import default_optics
+from drivers.camera import Frame, pi_camera_v2
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.view import CameraView
 from tests.drivers.simulator.stand import GEOMETRY, HOMED, PERFECT, Stand, on_stand
@@ -34,7 +33,7 @@ def test_the_picture_agrees_with_an_independent_projection() -> None:
     corners = np.array([[-30, -30, 0], [30, -30, 0], [30, 30, 0], [-30, 30, 0]], dtype=float)
     in_base = corners @ label[:3, :3].T + label[:3, 3]
     seen = (in_base - camera) * (-1.0, -1.0, 1.0)  # x and y turned round
-    optics = default_optics()
+    optics = pi_camera_v2()
     expected, _ = cv2.projectPoints(
         seen, np.zeros(3), np.zeros(3), optics.matrix, optics.distortion
     )

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from drivers.camera import CameraModel
+from drivers.camera import CameraModel, pi_camera_v2
 from drivers.simulator.camera.imaging import ImagingParameters
-from drivers.simulator.camera.optics import default_optics
 from drivers.simulator.camera.renderer import Renderer
 from drivers.simulator.camera.scene import SceneRenderer
 from drivers.simulator.view import CameraView
@@ -117,7 +116,7 @@ def test_motion_smears_the_label_along_its_way_only() -> None:
 
 
 def test_blur_grows_away_from_the_focus_as_a_thin_lens_says() -> None:
-    optics, imaging = default_optics(), ImagingParameters()
+    optics, imaging = pi_camera_v2(), ImagingParameters()
     assert imaging.blur_px(360.0, optics) == pytest.approx(0.55)
     # f = 3.04 mm at f/2, 1359 px focal length: a disc of 12.98 px at 110 mm.
     disc_px = 1.52 * 3.04 * (1 / 110 - 1 / 360) * optics.fx / 3.04
@@ -183,7 +182,7 @@ def test_the_gain_follows_the_light_up_to_its_limit() -> None:
 
 
 def test_edges_of_the_picture_are_darker_than_its_middle() -> None:
-    optics = default_optics()
+    optics = pi_camera_v2()
     gone = view(pose(0.0, 0.0, 50_000.0, (0.0, 0.0, 0.0)))
     image = Renderer(optics, ImagingParameters(), 1).picture(gone, 0).astype(np.float64)
     corners = [image[:40, :40], image[:40, -40:], image[-40:, :40], image[-40:, -40:]]

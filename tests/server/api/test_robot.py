@@ -1,0 +1,100 @@
+"""Robot and station over REST."""
+
+from __future__ import annotations
+
+import httpx
+
+from server.schema.health import Health
+from server.schema.robot import Robot
+from server.schema.station import Station
+from tests.support.api import on_api, problem
+from tests.support.garage import Scene
+
+
+async def _robot(client: httpx.AsyncClient) -> Robot:
+    return Robot.model_validate_json((await client.get("robot")).content)
+
+
+def test_a_technician_takes_the_robot_into_use_and_jogs_it() -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        step = {"axis": "x", "distance_mm": 5.0, "speed_mm_s": 20.0}
+        assert (await _robot(client)).mode == "off"
+        problem(await client.post("robot/jog", json=step), 409, "robot_not_ready")
+        assert (await client.post("robot/enable")).json()["mode"] == "not_homed"
+        home = Robot.model_validate_json((await client.post("robot/home")).content)
+        assert home.mode == "ready"
+        assert home.homed
+        assert home.control is None
+        before = scene.truth().T_base_plug[0, 3]
+        assert (await client.post("robot/jog", json=step)).status_code == 200
+        await scene.later(0.3)
+        moved_mm = scene.truth().T_base_plug[0, 3] - before
+        assert 4.5 < moved_mm < 5.5
+        problem(await client.post("robot/jog", json={"axis": "z"}), 422, "invalid_request")
+        far = {"axis": "rho3", "distance_mm": -50.0}
+        problem(await client.post("robot/jog", json=far), 409, "out_of_reach")
+        assert (await client.post("robot/disable")).json()["enabled"] is False
+
+    on_api(scenario)
+
+
+def test_stops_are_never_refused() -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        for _ in range(3):
+            assert (await client.post("robot/stop")).json()["mode"] == "stopped"
+        problem(await client.post("jobs", json={"type": "plug_in"}), 409, "stopped")
+        for _ in range(3):
+            assert (await client.post("robot/estop")).json()["mode"] == "emergency_stop"
+        problem(await client.post("jobs", json={"type": "plug_in"}), 409, "emergency_stopped")
+        assert (await client.post("robot/reset")).json()["mode"] in {"off", "ready"}
+        scene.garage.robot.unplug_link()
+        await scene.later(1.0)
+        assert (await _robot(client)).mode == "offline"
+        assert (await client.post("robot/stop")).status_code == 200
+        assert (await client.post("robot/estop")).status_code == 200
+        problem(await client.post("robot/reset"), 503, "robot_offline")
+
+    on_api(scenario, parked=True)
+
+
+def test_confirming_that_the_plug_is_out() -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        body = {"state": "free"}
+        await scene.services.supervisor.plug.doubt()
+        problem(await client.post("jobs", json={"type": "plug_in"}), 409, "plug_state")
+        problem(
+            await client.post("robot/plug-confirmation", json={"state": "in"}),
+            422,
+            "invalid_request",
+        )
+        answer = await client.post("robot/plug-confirmation", json=body)
+        assert answer.json()["plug"] == "free"
+        assert answer.json()["control"] is None
+        job = (await client.post("jobs", json={"type": "plug_in"})).json()
+        problem(await client.post("robot/plug-confirmation", json=body), 409, "control_busy")
+        await scene.services.runner.wait()
+        assert (await client.get(f"jobs/{job['id']}")).json()["error"] is None
+        problem(
+            await client.post("robot/plug-confirmation", json=body), 409, "lateral_motion_forbidden"
+        )
+
+    on_api(scenario, parked=True)
+
+
+def test_health_names_what_is_down() -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        health = Health.model_validate_json((await client.get("health")).content)
+        assert health.components["robot"].status == "ok"
+        assert health.components["station"].status == "ok"
+        scene.garage.station.hang()
+        scene.garage.robot.unplug_link()
+        await scene.later(6.0)
+        health = Health.model_validate_json((await client.get("health")).content)
+        assert health.status == "degraded"
+        assert health.components["robot"].status == "down"
+        assert health.components["station"].status == "down"
+        station = Station.model_validate_json((await client.get("station")).content)
+        assert not station.online
+        assert station.pilot == "A"  # as last read; updated_at says when
+
+    on_api(scenario)

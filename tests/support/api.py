@@ -1,0 +1,52 @@
+"""The web application around a scene, called without a socket, in virtual time."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Awaitable, Callable
+from typing import Any, TypeVar
+
+import httpx
+
+from server.api.app import PREFIX, create_app
+from server.schema.problem import TYPE_PREFIX
+from tests.support.garage import Scene, on_scene
+
+T = TypeVar("T")
+
+
+def on_api(
+    scenario: Callable[[Scene, httpx.AsyncClient], Awaitable[T]],
+    *,
+    seed: int = 4,
+    parked: bool = False,
+) -> T:
+    """Run a scenario with a client of the API. Paths are relative to /api/v1/."""
+
+    async def with_client(scene: Scene) -> T:
+        app = create_app(lambda: contextlib.nullcontext(scene.services))
+        async with (
+            app.router.lifespan_context(app),
+            httpx.AsyncClient(
+                transport=httpx.ASGITransport(app, raise_app_exceptions=False),
+                base_url=f"http://plugpilot{PREFIX}/",
+            ) as client,
+        ):
+            return await scenario(scene, client)
+
+    return on_scene(with_client, seed=seed, parked=parked)
+
+
+def problem(response: httpx.Response, status: int, code: str) -> dict[str, Any]:
+    """The problem document of a response, checked for everything that RFC 9457 and we promise."""
+    assert response.status_code == status, response.text
+    assert response.headers["content-type"] == "application/problem+json"
+    document: dict[str, Any] = response.json()
+    assert document["status"] == status
+    assert document["code"] == code
+    assert document["type"] == TYPE_PREFIX + code
+    for words in ("title", "detail", "remedy"):
+        assert document[words].strip(), f"no {words} in {document}"
+    assert "Traceback" not in response.text
+    assert "server/" not in response.text
+    return document
