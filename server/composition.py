@@ -142,6 +142,7 @@ def _devices(settings: Settings) -> Devices:
         camera=settings.camera.driver,
         station=settings.station.driver,
         port=settings.robot.port,
+        board=settings.robot.board,
         geometry=settings.geometry,
         limits=settings.motion,
         mount=settings.camera.mount,

@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from drivers.arduino.settings import BoardSettings
 from server.config.section import Section
 
 
@@ -17,4 +18,7 @@ class RobotSettings(Section):
         "auto",
         min_length=1,
         description="Serial port of the board; auto looks for it. The simulator needs none",
+    )
+    board: BoardSettings = Field(
+        default_factory=BoardSettings, description="The real board and its drives"
     )
