@@ -25,6 +25,10 @@ class RobotLink:
         on_connected: Called with the first sample after every connection.
         on_sample: Called with every sample.
         on_lost: Called when the link goes down.
+
+    Attributes:
+        identity: What answered last, None before anything did.
+        trouble: Why there is no link, in the driver's words; None while there is one.
     """
 
     def __init__(
@@ -37,6 +41,7 @@ class RobotLink:
         on_lost: Callable[[], None],
     ) -> None:
         self.identity: RobotIdentity | None = None
+        self.trouble: str | None = None
         self._driver = driver
         self._telemetry = telemetry
         self._on_connected = on_connected
@@ -67,9 +72,10 @@ class RobotLink:
         while True:
             try:
                 self.identity = await self._driver.connect()
+                self.trouble = None
                 await self._read()
             except RobotDriverError as error:
-                _log.warning("no link to the motion board: %s", error)
+                self._note(str(error))
             except Exception:  # noqa: BLE001 - such as a full disk; it is logged
                 # Without anybody who watches it, the robot must stand still.
                 _log.exception("the link to the motion board broke down; connecting anew")
@@ -87,6 +93,12 @@ class RobotLink:
                 self._attempted.set()
                 first = False
             await self._on_sample(state)
+
+    def _note(self, trouble: str) -> None:
+        """Log what is wrong once, not at every attempt."""
+        if trouble != self.trouble:
+            _log.warning("no link to the motion board: %s", trouble)
+        self.trouble = trouble
 
     async def _stop_unwatched(self) -> None:
         try:

@@ -105,6 +105,11 @@ class Supervisor:
         """Name of the robot at the other end, as far as known."""
         return self._link.identity.name if self._link.identity else "not connected"
 
+    @property
+    def link_trouble(self) -> str | None:
+        """Why there is no link to the motion board, in the driver's words."""
+        return self._link.trouble
+
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change, telemetry included."""
         self._listeners.add(listener)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from drivers.robot import RobotState
 from drivers.station import StationSnapshot
+from server.control.errors import RobotOfflineError
 from server.control.faults import words_for
 from server.control.supervisor import Supervisor
 from server.localisation.socket_pose import SocketPose
@@ -40,7 +41,7 @@ def robot_view(supervisor: Supervisor, socket: SocketPose | None, calendar: Cale
         control=ControlHolder(kind=holder.kind, name=holder.name, since=holder.since)
         if holder
         else None,
-        fault=_fault(state),
+        fault=_fault(state) if state else _no_link(supervisor.link_trouble),
         socket=_socket(socket, calendar) if socket else None,
         updated_at=calendar.at(state.sampled_at_s) if state else calendar.now(),
     )
@@ -103,8 +104,19 @@ def _tip(geometry: RobotGeometry, position: JointPosition) -> Tip | None:
     return Tip(x_mm=round(tip.x_mm, 3), y_mm=round(tip.y_mm, 3), z_mm=round(tip.z_mm, 3))
 
 
-def _fault(state: RobotState | None) -> RobotFault | None:
-    if state is None or state.fault is None:
+def _no_link(trouble: str | None) -> RobotFault | None:
+    if trouble is None:
+        return None
+    return RobotFault(
+        code=RobotOfflineError.code,
+        title=RobotOfflineError.title,
+        detail=trouble,
+        remedy=RobotOfflineError.remedy,
+    )
+
+
+def _fault(state: RobotState) -> RobotFault | None:
+    if state.fault is None:
         return None
     words = words_for(state.fault)
     return RobotFault(

@@ -10,7 +10,9 @@ from drivers.robot import BoardState, FaultCode, RobotState
 from server.control.errors import ControlBusyError, ControlLostError, RobotOfflineError
 from server.control.model import PlugState, RobotMode
 from server.control.plug_guard import Corridor, PlugRecord
+from server.live.views import robot_view
 from server.storage.errors import StorageError
+from server.timing import Calendar
 from tests.support.robot_cell import AWAY, HOME, MemoryPlug, RobotCell, in_cell, parameters
 from tests.support.virtual import wait_until
 from twin.joints import JointPosition
@@ -250,5 +252,22 @@ def test_whoever_waits_for_telemetry_learns_that_the_link_is_gone() -> None:
             async for _ in read():
                 pass
         assert asyncio.get_running_loop().time() - began_s < 0.5
+
+    in_cell(scenario)
+
+
+def test_why_there_is_no_link_is_known_and_logged_once(caplog: pytest.LogCaptureFixture) -> None:
+    async def scenario(cell: RobotCell) -> None:
+        assert cell.supervisor.link_trouble is None
+        await lose_the_link(cell)
+        await asyncio.sleep(10.0)
+        trouble = cell.supervisor.link_trouble
+        assert trouble is not None
+        assert [trouble in record.message for record in caplog.records].count(True) == 1
+        view = robot_view(cell.supervisor, None, Calendar())
+        assert view.fault is not None
+        assert (view.fault.code, view.fault.detail) == ("robot_offline", trouble)
+        await find_the_link(cell)
+        assert cell.supervisor.link_trouble is None
 
     in_cell(scenario)
