@@ -15,8 +15,8 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
-from drivers.simulator.garage import build_garage
 from drivers.robot.telemetry_feed import KEPT_SAMPLES
+from drivers.simulator.garage import build_garage
 from tests.drivers.simulator.stand import GEOMETRY, HOMED, LIMITS, PERFECT, Stand, on_stand, run
 from twin.camera_mount import CameraMount
 from twin.joints import JointPosition
