@@ -135,6 +135,10 @@ class Plant:
         dy_mm, z_mm = gamma.tip_offset(self.geometry, rho3_mm)
         return TipPosition(v.x_mm, v.y_mm + dy_mm - self._sag.of_tip_mm(rho3_mm), z_mm)
 
+    def contact_force_n(self, state: PlantState, around: Surroundings, rho3_mm: float) -> float:
+        """Contact force if the rho3 motor stood elsewhere and all else as it does."""
+        return self._push_slide(state, around, rho3_mm).contact.force_n
+
     def advance(
         self, state: PlantState, line: SetPointLine, around: Surroundings, until_s: float
     ) -> PlantState:

@@ -242,6 +242,15 @@ class SimulatedWorld:
         self.line.jump(now_s, JointPosition(*motors))
         self._disturb(state._replace(motors=JointPosition(*motors)))
 
+    def contact_forces_n(self, rho3_mm: Sequence[float]) -> list[float]:
+        """What the socket would do against the plug if the rho3 motor stood elsewhere now.
+
+        Args:
+            rho3_mm: Positions of that motor in the board's coordinates.
+        """
+        around = self._surroundings
+        return [self._plant.contact_force_n(self._state, around, motor) for motor in rho3_mm]
+
     # --- the station's side ------------------------------------------------------------------
 
     @property

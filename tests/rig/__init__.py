@@ -1,0 +1,1 @@
+"""The test rig: the real firmware in a simulated microcontroller, with motors and switches."""
