@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Sequence
 
 from drivers.arduino.driver import ArduinoRobot
-from drivers.robot import BoardState, RobotState
+from drivers.robot import BoardRefusedError, BoardState, RobotState
+from tests.support.eventually import eventually
 from twin.joints import JointPosition
 from twin.motion import MotionLimits
 from twin.motion.discretise import plan_segments
@@ -38,20 +40,34 @@ async def plan(
 
 async def feed(robot: ArduinoRobot, segments: Sequence[Segment]) -> RobotState:
     """Keep the board's queue filled until all is pushed; returns at rest or at a fault."""
+    loop = asyncio.get_running_loop()
     waiting = list(segments)
-    pushed = False
+    pushed_s = loop.time()
     async for state in robot.telemetry():
         if state.fault is not None:
             return state
-        # two places less than the sample shows: it is older than the queue
-        room = max(state.queue_free - 2, 0)
-        if waiting and room:
-            batch, waiting = waiting[:room], waiting[room:]
+        if state.sampled_at_s <= pushed_s:
+            continue  # knows nothing of the last push
+        if waiting:
+            batch, waiting = waiting[: state.queue_free], waiting[state.queue_free :]
             await robot.push(batch)
-            pushed = True
-        elif pushed and not waiting and state.board not in MOVING:
+            pushed_s = loop.time()
+        elif state.board not in MOVING:
             return state
     raise AssertionError("the telemetry ended")
+
+
+async def release(robot: ArduinoRobot) -> None:
+    """Clear a fault as soon as the board has come to rest."""
+
+    async def cleared() -> bool:
+        try:
+            await robot.clear_fault()
+        except BoardRefusedError:
+            return False
+        return True
+
+    await eventually(cleared)
 
 
 async def move(robot: ArduinoRobot, limits: MotionLimits, target: JointPosition) -> RobotState:
