@@ -16,7 +16,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format bench campaign lock clean setup-dev system-packages \
+.PHONY: help setup run test lint format bench campaign rig lock clean setup-dev system-packages \
 	check-style check-types check-web test-python test-web
 
 help: ## list the targets
@@ -42,6 +42,9 @@ bench: setup-dev ## run the benchmarks
 		name=$$(basename $$file .py); echo "-- $$name"; \
 		$(BIN)/python -m tests.bench.$$name || exit 1; \
 	done
+
+rig: setup-dev system-packages ## test the real firmware in a simulated board, in real time
+	@$(BIN)/pytest --no-header tests/rig $(ARGS)
 
 campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
 	@$(BIN)/plugpilot simulate campaign $(ARGS)
@@ -74,7 +77,7 @@ check-web: web/node_modules/.package-lock.json
 
 test-python:
 	@echo "-- tests"
-	@$(BIN)/pytest --no-header
+	@$(BIN)/pytest --no-header --ignore=tests/rig
 
 test-web: web/node_modules/.package-lock.json
 	@echo "-- tests of the web pages"
