@@ -56,6 +56,7 @@ async def running(
     settings: Settings,
     *,
     folder: Path | None,
+    devices: Devices | None = None,
     twin: TwinHost | None = None,
     wait_for_robot: bool = True,
 ) -> AsyncIterator[Services]:
@@ -64,6 +65,7 @@ async def running(
     Args:
         settings: The whole configuration.
         folder: Where data is kept; None keeps it in memory.
+        devices: To be used in place of those that the settings name.
         twin: The 3D picture to feed, if any; started by the caller.
         wait_for_robot: Be ready only after the first attempt to reach the motion board. Pages
             need not wait for that: a board takes a second to start.
@@ -76,7 +78,7 @@ async def running(
     cv2.setNumThreads(1)
     speed = settings.clock_speed
     calendar = Calendar(speed)
-    devices = _devices(settings)
+    devices = devices or _devices(settings)
     async with contextlib.AsyncExitStack() as stack:
         database = Database(folder)
         await database.open()
