@@ -11,8 +11,9 @@ import cv2
 
 from drivers.camera import CameraError
 from drivers.errors import UnknownDriverError
-from drivers.registry import DeviceRequest, Devices, make_devices
+from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
 from drivers.simulator.car import ParkedCar
+from drivers.simulator.following import RobotFollower
 from drivers.station import StationError
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
@@ -86,12 +87,14 @@ async def running(
         jobs, vehicles = JobStore(database), VehicleStore(database)
 
         await _open(devices, stack)
-        if devices.garage is not None:
-            await _introduce(devices.garage.world.car, vehicles)
+        if devices.world is not None and settings.camera.driver == SIMULATOR:
+            await _introduce(devices.world.car, vehicles)
 
         supervisor = Supervisor(
             devices.robot, settings.geometry, settings.motion, StoredPlug(database), calendar
         )
+        if devices.followed is not None:
+            _let_follow(devices.followed.follower, supervisor)
         runner = JobRunner(
             supervisor=supervisor,
             eye=Eye(
@@ -194,6 +197,17 @@ async def _introduce(car: ParkedCar, vehicles: VehicleStore) -> None:
     )
 
 
+def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
+    """Let the simulated surroundings of a real robot know where it stands."""
+
+    def pass_on() -> None:
+        state = supervisor.telemetry.latest
+        if state is not None:
+            follower.take(state)
+
+    supervisor.listen(pass_on)
+
+
 def _show(services: Services) -> None:
     """Connect what changes to those who watch."""
     live, supervisor, runner = services.live, services.supervisor, services.runner
@@ -230,7 +244,8 @@ def _show(services: Services) -> None:
 def _service(services: Services) -> Service:
     return Service(
         version=VERSION,
-        simulated=services.garage is not None,
+        simulated=services.settings.simulated,
+        simulated_parts=services.settings.simulated_parts,
         speed=services.settings.clock_speed,
         camera_online=services.camera.online,
         started_at=services.started_at,

@@ -182,6 +182,7 @@ export const words = {
   },
   link: { connecting: "Connecting", live: "Live", lost: "Reconnecting", quiet: "No news" },
   simulator: (speed: number): string => (speed === 1 ? "Simulator" : `Simulator ×${String(speed)}`),
+  simulated: { car: "Simulated car", camera: "Simulated camera", station: "Simulated station" },
   steps: { title: "Progress", done: "done" },
   station: {
     title: "Charging station",
@@ -214,6 +215,8 @@ export const words = {
     tip: "Plug tip",
     force: "Force",
     socket: "Socket found to",
+    simulated: "Not real",
+    simulatedParts: { robot: "robot", camera: "camera", station: "charging station" },
     version: "Software",
     enable: "Switch on",
     disable: "Switch off",
