@@ -171,6 +171,21 @@ SCENES: dict[str, Live] = {
             ),
         )
     ),
+    "no_board": live(
+        robot(
+            RobotMode.OFFLINE,
+            PlugState.UNKNOWN,
+            fault=RobotFault(
+                code="board_not_found",
+                title="No motion board at its port",
+                detail="The port /dev/serial/by-id/usb-1a86_USB2.0-Serial-if00-port0 cannot be "
+                "opened: No such file or directory.",
+                remedy="Check that the board has power, and that its USB cable is in at both ends.",
+            ),
+        ),
+        speed=1,
+        simulated=("camera", "station"),
+    ),
     "offline": live(robot(RobotMode.OFFLINE, PlugState.UNKNOWN)),
     "jog": live(
         robot(

@@ -84,8 +84,9 @@ export const words = {
     },
     emergency: {
       headline: "Emergency stop",
-      detail: "Everything stands still. Make sure that nobody is near the plug, then release it.",
+      detail: "Everything stands still.",
     },
+    emergencyRemedy: "Make sure that nobody is near the plug, then release the stop.",
     stopped: {
       headline: "Stopped",
       detail: "The robot holds still until you release the stop.",
