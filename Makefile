@@ -43,8 +43,8 @@ bench: setup-dev ## run the benchmarks
 		$(BIN)/python -m tests.bench.$$name || exit 1; \
 	done
 
-rig: setup-dev system-packages ## test the real firmware in a simulated board, in real time
-	@$(BIN)/pytest --no-header tests/rig $(ARGS)
+rig: setup-dev system-packages ## test the real firmware at length: fault by fault, step by step
+	@$(BIN)/pytest --no-header tests/rig tests/rig/campaign $(ARGS)
 
 campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
 	@$(BIN)/plugpilot simulate campaign $(ARGS)
@@ -77,7 +77,7 @@ check-web: web/node_modules/.package-lock.json
 
 test-python:
 	@echo "-- tests"
-	@$(BIN)/pytest --no-header --ignore=tests/rig
+	@$(BIN)/pytest --no-header
 
 test-web: web/node_modules/.package-lock.json
 	@echo "-- tests of the web pages"

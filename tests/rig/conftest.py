@@ -1,8 +1,24 @@
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
 import pytest
 
 from tests.rig.build import Programs, build_programs, missing_packages
+from tests.rig.loop import LockStepLoop
+
+
+def pytest_asyncio_loop_factories() -> Mapping[str, Callable[[], asyncio.AbstractEventLoop]]:
+    """Simulated time for all tests here but those in ``device``."""
+    return {"lock step": LockStepLoop}
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """What takes minutes runs only if it is named on the command line."""
+    is_long = collection_path.name == "campaign" and collection_path.is_dir()
+    return True if is_long and not any("campaign" in name for name in config.args) else None
 
 
 @pytest.fixture(scope="session")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from drivers.arduino.settings import BoardSettings
-from tests.rig.control import TrueState
+from drivers.arduino.settings import BoardSettings, SlideSettings
+from tests.rig.truth import TrueState
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 
@@ -14,6 +14,19 @@ EDGES_PER_COUNT = 2
 
 RESERVE_MM = 2.0
 """The mechanical stops are this far behind the switches and the ends of the travel."""
+
+STANDING = JointPosition(150.0, 140.0, 70.0)
+"""Where the robot stands at power-up unless a test says otherwise: away from every switch."""
+
+DEFAULTS = BoardSettings()
+BRISK = {"seek_speed_mm_s": 70.0, "locate_speed_mm_s": 5.0, "homing_acceleration_mm_s2": 1000.0}
+TUNED = BoardSettings(
+    rho1=DEFAULTS.rho1.model_copy(update=BRISK),
+    rho2=DEFAULTS.rho2.model_copy(update=BRISK),
+    slide=SlideSettings(ki_pwm_per_count_s=20.0, integral_pwm_max=150),
+)
+"""Homing in a third of the time; and an integral that can carry the whole force of the insertion,
+without which the slide would stop short of its place and the board would wait for ever."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,3 +93,8 @@ def true_joints(machine: Machine, state: TrueState) -> JointPosition:
         state.rho2_steps / settings.rho2.units_per_mm,
         state.rho3_mm,
     )
+
+
+def standing_machine(start: JointPosition = STANDING) -> Machine:
+    """The machine of the default geometry."""
+    return Machine(RobotGeometry(), TUNED, start)

@@ -1,115 +1,119 @@
-"""One board in the rig: a process that runs the firmware, and the channel to it."""
+"""One board in the rig: a process that runs the firmware in step with the event loop."""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import tempfile
 from collections.abc import AsyncIterator
-from dataclasses import dataclass
-from pathlib import Path
+from typing import NamedTuple
 
 from drivers.arduino.driver import ArduinoRobot
-from drivers.arduino.settings import BoardSettings, SlideSettings
+from drivers.arduino.link.frames import Frame
 from tests.rig.build import Programs
-from tests.rig.control import Control
-from tests.rig.machine import Machine, true_joints
-from twin.geometry import RobotGeometry
+from tests.rig.cable import Cable
+from tests.rig.control import CPU_HZ, Control
+from tests.rig.loop import LockStepLoop
+from tests.rig.machine import Machine, standing_machine, true_joints
+from tests.rig.simulator import Simulator
 from twin.joints import JointPosition
 from twin.motion import MotionLimits
 
-START_S = 10.0
 SAMPLE_S = 0.01
+"""Period of the samples of the true state."""
 
-STANDING = JointPosition(150.0, 140.0, 70.0)
-"""Where the robot stands at power-up unless a test says otherwise: away from every switch."""
+LONGEST_S = 150.0
+"""No test lives longer; one that would waits for what never happens."""
 
-DEFAULTS = BoardSettings()
-BRISK = {"seek_speed_mm_s": 70.0, "locate_speed_mm_s": 5.0, "homing_acceleration_mm_s2": 1000.0}
-TUNED = BoardSettings(
-    rho1=DEFAULTS.rho1.model_copy(update=BRISK),
-    rho2=DEFAULTS.rho2.model_copy(update=BRISK),
-    slide=SlideSettings(ki_pwm_per_count_s=20.0, integral_pwm_max=150),
-)
-"""Homing in a third of the time; and an integral that can carry the whole force of the insertion,
-without which the slide would stop short of its place and the board would wait for ever."""
+USB_LATENCY_S = 1e-3
+"""Of a byte, each way: the bridge fills a packet, and USB polls once a millisecond."""
 
 
-@dataclass(frozen=True, slots=True)
+class Heard(NamedTuple):
+    """A frame of the board and when it came, in event loop time."""
+
+    at_s: float
+    frame: Frame
+
+
 class Rig:
-    """A running board.
+    """A running board; a World for its event loop.
 
     Attributes:
         control: Truth and faults.
-        port: Device of its USB port.
         machine: What hangs on it.
+        heard: Every frame that came out of the cable.
     """
 
-    control: Control
-    port: Path
-    machine: Machine
+    def __init__(self, simulator: Simulator, machine: Machine, began_s: float) -> None:
+        self.control = Control(simulator)
+        self.machine = machine
+        self.heard: list[Heard] = []
+        self.cable = Cable(simulator)
+        self._simulator = simulator
+        self._began_s = began_s
 
     def robot(self, limits: MotionLimits | None = None) -> ArduinoRobot:
         """The real driver for it."""
-        machine = self.machine
         return ArduinoRobot(
-            str(self.port), machine.geometry, limits or MotionLimits(), machine.settings
+            "rig",
+            self.machine.geometry,
+            limits or MotionLimits(),
+            self.machine.settings,
+            open_line=self.cable.open_line,
         )
 
     async def true_joints(self) -> JointPosition:
         """Where carriages and slide truly are."""
         return true_joints(self.machine, await self.control.state())
 
+    def loop_time_s(self, simulated_s: float) -> float:
+        """Event loop time of a simulated time since the start."""
+        return self._began_s + simulated_s
 
-def standing_machine(start: JointPosition = STANDING) -> Machine:
-    """The machine of the default geometry."""
-    return Machine(RobotGeometry(), TUNED, start)
+    def live(self, until_s: float) -> float:
+        """Live until then, or until the board says something; returns the time it has become."""
+        if until_s - self._began_s > LONGEST_S:
+            raise TimeoutError(f"the test has not ended after {LONGEST_S:g} simulated seconds")
+        passage = self._simulator.run(until_s - self._began_s)
+        now_s = self._began_s + passage.cycle / CPU_HZ
+        end = self.cable.end
+        if end is not None and passage.received:
+            self.heard += [Heard(now_s, frame) for frame in end.receive(passage.received, now_s)]
+        if end is not None and passage.lost:
+            end.lose()
+        return now_s
 
 
 @contextlib.asynccontextmanager
 async def running_rig(
-    programs: Programs, machine: Machine | None = None, *, speed: float = 1.0
+    programs: Programs, machine: Machine | None = None, *, sample_s: float = SAMPLE_S
 ) -> AsyncIterator[Rig]:
-    """Run a board until the block ends.
+    """Run a board in step with the running event loop until the block ends.
 
     Args:
         programs: Firmware and simulator.
         machine: What hangs on the board; None takes the one of the default geometry.
-        speed: Simulated seconds per second of the wall clock.
+        sample_s: Period of the samples of the true state.
     """
+    loop = asyncio.get_running_loop()
+    assert isinstance(loop, LockStepLoop)
     machine = machine or standing_machine()
-    with tempfile.TemporaryDirectory() as scratch:
-        port, channel = Path(scratch) / "port", Path(scratch) / "control"
-        options: dict[str, object] = {
+    began_s = loop.time()
+    simulator = Simulator(
+        programs.simulator,
+        {
+            "clock": "host",
             "firmware": programs.firmware,
-            "pty": port,
-            "control": channel,
-            "speed": speed,
-            "sample_s": SAMPLE_S,
+            "began_s": began_s,
+            "latency_s": USB_LATENCY_S,
+            "sample_s": sample_s,
             **machine.options(),
-        }
-        process = await asyncio.create_subprocess_exec(
-            programs.simulator,
-            *(f"{name}={value}" for name, value in options.items()),
-            stdin=asyncio.subprocess.PIPE,
-            stdout=asyncio.subprocess.PIPE,
-        )
-        try:
-            await _wait_until_ready(process)
-            control = await Control.connect(channel)
-            try:
-                yield Rig(control, port, machine)
-            finally:
-                await control.close()
-        finally:
-            # the simulator ends with its standard input
-            await process.communicate(b"")
-
-
-async def _wait_until_ready(process: asyncio.subprocess.Process) -> None:
-    assert process.stdout is not None
-    async with asyncio.timeout(START_S):
-        while line := await process.stdout.readline():
-            if line == b"ready\n":
-                return
-    raise AssertionError("the simulator has not started; see what it wrote to standard error")
+        },
+    )
+    rig = Rig(simulator, machine, began_s)
+    loop.join(rig)
+    try:
+        yield rig
+    finally:
+        loop.leave()
+        simulator.close()

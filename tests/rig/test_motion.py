@@ -13,9 +13,9 @@ import pytest_asyncio
 from drivers.arduino.driver import ArduinoRobot
 from drivers.robot import BoardState, FaultCode, NotConnectedError, StopCategory
 from tests.rig.build import Programs
-from tests.rig.control import TrueState
 from tests.rig.host import at_rest, feed, move, plan, release, sample_where
 from tests.rig.rig import Rig, running_rig
+from tests.rig.truth import TrueState
 from tests.support.eventually import eventually
 from twin.joints import JointPosition
 from twin.motion import MotionLimits
@@ -154,10 +154,10 @@ async def test_a_limit_switch_ends_the_steps_within_one_tick(
     rig, robot = homed
     await ready(rig, robot, NEAR)
     async with on_the_way(robot, FAR):
-        cut = await rig.control.cut_switch(1)
+        cut = await rig.control.spoil_switch(1, "cut")
         stopped = await sample_where(robot, lambda state: state.fault is not None)
         later = await rig.control.state()
-    await rig.control.cut_switch(1, cut=False)
+    await rig.control.spoil_switch(1, "whole")
     assert stopped.fault is not None
     assert stopped.fault.code is FaultCode.LIMIT_SWITCH
     assert abs(later.rho1_steps - cut.rho1_steps) <= 1

@@ -1,7 +1,5 @@
 #include "board.hpp"
 
-#include <core/protocol.hpp>
-
 namespace rig {
 namespace {
 
@@ -25,9 +23,9 @@ SlideNumbers slide_numbers(const Options& options) {
 
 }  // namespace
 
-Board::Board(const Options& options)
+Board::Board(const Options& options, double latency_s)
     : mcu(options.text("firmware")),
-      line(options.text("pty"), plugpilot::protocol::BAUD),
+      line(latency_s),
       uart(mcu, line),
       power(mcu, Pin(DRIVE_RELAY_PORT, DRIVE_RELAY), Pin(SWITCH_PIN, STOP_CIRCUIT)),
       rho1(mcu, Pin(RHO1_STEP_PORT, RHO1_STEP), Pin(RHO1_DIR_PORT, RHO1_DIR),
@@ -35,7 +33,8 @@ Board::Board(const Options& options)
       rho2(mcu, Pin(RHO2_STEP_PORT, RHO2_STEP), Pin(RHO2_DIR_PORT, RHO2_DIR),
            Pin(SWITCH_PIN, RHO2_SWITCH), power, rail_numbers(options, "rho2")),
       rho3(mcu, power, slide_numbers(options)),
-      ticks(mcu) {}
+      ticks(mcu),
+      trace(mcu, ticks, rho1, rho2) {}
 
 void Board::press_reset() {
   uart.flush();

@@ -6,13 +6,15 @@
 #include "rail.hpp"
 #include "serial_line.hpp"
 #include "slide.hpp"
+#include "step_trace.hpp"
 #include "tick_watch.hpp"
 #include "uart.hpp"
 
 namespace rig {
 
 struct Board {
-  explicit Board(const Options& options);
+  // The latency is that of a byte on the cable.
+  Board(const Options& options, double latency_s);
 
   // The button on the board, or the bridge's DTR.
   void press_reset();
@@ -33,6 +35,7 @@ struct Board {
   Rail rho2;
   Slide rho3;
   TickWatch ticks;
+  StepTrace trace;
 };
 
 }  // namespace rig

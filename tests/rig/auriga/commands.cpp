@@ -33,7 +33,17 @@ void set_switch(std::istringstream& words, Board& board) {
   words >> axis;
   Switch* limit_switch = board.limit_switch(axis);
   if (!words || limit_switch == nullptr) refuse("switch: the axis is 0, 1 or 2");
-  limit_switch->cut(choose(words, "cut", "whole"));
+  std::string word;
+  words >> word;
+  if (word == "whole") {
+    limit_switch->become(Switch::Health::WHOLE);
+  } else if (word == "cut") {
+    limit_switch->become(Switch::Health::CUT);
+  } else if (word == "stuck") {
+    limit_switch->become(Switch::Health::STUCK);
+  } else {
+    refuse("switch: whole, cut or stuck, not " + word);
+  }
 }
 
 void set_link(std::istringstream& words, Board& board) {
@@ -57,6 +67,15 @@ void set_faults(std::istringstream& words, Board& board) {
   board.line.set_faults(faults);
 }
 
+void flip_eeprom(std::istringstream& words, Board& board) {
+  unsigned address = 0;
+  unsigned mask = 0;
+  words >> address >> mask;
+  if (!words || mask > 0xFF || !board.mcu.flip_eeprom(address, static_cast<uint8_t>(mask))) {
+    refuse("eeprom: an address in it, and which bits to flip");
+  }
+}
+
 void do_what(const std::string& verb, std::istringstream& words, Board& board) {
   if (verb == "load") {
     set_load(words, board);
@@ -76,6 +95,10 @@ void do_what(const std::string& verb, std::istringstream& words, Board& board) {
     set_link(words, board);
   } else if (verb == "faults") {
     set_faults(words, board);
+  } else if (verb == "eeprom") {
+    flip_eeprom(words, board);
+  } else if (verb == "record") {
+    board.trace.record(choose(words, "on", "off"));
   } else {
     refuse("no such command: " + verb);
   }
@@ -83,14 +106,14 @@ void do_what(const std::string& verb, std::istringstream& words, Board& board) {
 
 }  // namespace
 
-std::string obey(const std::string& line, Board& board, WallClock& clock) {
+std::string obey(const std::string& line, Board& board, const Clock& clock) {
   std::istringstream words(line);
   std::string verb;
   words >> verb;
-  if (verb == "statistics") return statistics_json(board, clock);
+  if (verb == "statistics") return statistics_json(board);
+  if (verb == "steps") return steps_json(board.trace);
   if (verb == "forget") {
     board.forget_statistics();
-    clock.forget_statistics();
   } else if (verb != "state") {
     do_what(verb, words, board);
   }

@@ -10,21 +10,13 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "report.hpp"
+
 namespace rig {
 namespace {
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
-}
-
-// Enough for what is told here: no control characters, only quotes and backslashes.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) >= ' ') result += c;
-  }
-  return result + "\"";
 }
 
 }  // namespace
@@ -72,7 +64,7 @@ void Control::exchange() {
     try {
       tell(answer_(line));
     } catch (const std::invalid_argument& error) {
-      tell("{\"error\":" + quoted(error.what()) + "}");
+      tell(error_json(error.what()));
     }
   }
 }

@@ -1,23 +1,34 @@
-// A Me Auriga with the real firmware, its motors and switches, and a pseudo terminal as its USB port.
+// A Me Auriga with the real firmware, its motors and switches.
 //
-// Options: firmware=ELF pty=PATH control=PATH speed=FACTOR sample_s=PERIOD, and the numbers of the
-// axes as in board.cpp. Prints "ready" when both paths are there, and ends with its standard input.
+// Options: firmware=ELF sample_s=PERIOD, the numbers of the axes as in board.cpp, and
+//
+//   clock=wall pty=PATH control=PATH   in real time: a pseudo terminal as its USB port, and a socket
+//                                      for everything else
+//   clock=host began_s=TIME latency_s=DELAY
+//                                      time passes when the host lets it: see lock_step.hpp
+//
+// Prints "ready" when it can be used, and ends with its standard input.
 #include <poll.h>
 #include <unistd.h>
 
+#include <core/protocol.hpp>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "board.hpp"
 #include "commands.hpp"
 #include "control.hpp"
+#include "lock_step.hpp"
 #include "report.hpp"
+#include "terminal.hpp"
 #include "wall_clock.hpp"
 
 namespace rig {
 namespace {
 
 constexpr uint64_t kSliceCycles = kCpuHz / 4000;  // bytes wait no longer than 250 us
+constexpr double kNoLatency = 0;                  // the pseudo terminal has enough of it
 
 // Whoever started this program holds the other end, so it cannot be left behind.
 bool abandoned() {
@@ -26,9 +37,10 @@ bool abandoned() {
   return poll(&input, 1, 0) > 0 && read(STDIN_FILENO, &byte, 1) <= 0;
 }
 
-void run(const Options& options) {
-  Board board(options);
-  WallClock clock(options.number("speed"));
+void run_in_real_time(const Options& options) {
+  Board board(options, kNoLatency);
+  Terminal terminal(board.line, options.text("pty"), plugpilot::protocol::BAUD);
+  WallClock clock;
   Control control(options.text("control"),
                   [&](const std::string& line) { return obey(line, board, clock); });
   const auto sample_cycles = static_cast<uint64_t>(options.number("sample_s") * kCpuHz);
@@ -37,7 +49,7 @@ void run(const Options& options) {
   fflush(stdout);
   while (!abandoned()) {
     board.mcu.run_until(board.mcu.now() + kSliceCycles);
-    if (board.line.exchange(board.mcu.now())) board.press_reset();
+    if (terminal.exchange(board.mcu.now())) board.press_reset();
     board.uart.kick();
     if (board.mcu.now() >= next_sample) {
       next_sample = board.mcu.now() + sample_cycles;
@@ -46,6 +58,18 @@ void run(const Options& options) {
     control.exchange();
     clock.wait_for(board.mcu.now());
   }
+}
+
+void run_in_lock_step(const Options& options) {
+  Board board(options, options.number("latency_s"));
+  LockStep(board, options.number("began_s"), options.number("sample_s")).serve();
+}
+
+void run(const Options& options) {
+  const std::string clock = options.text("clock");
+  if (clock == "wall") return run_in_real_time(options);
+  if (clock == "host") return run_in_lock_step(options);
+  throw std::invalid_argument("clock is wall or host, not " + clock);
 }
 
 }  // namespace

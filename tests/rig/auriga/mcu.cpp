@@ -1,10 +1,13 @@
 #include "mcu.hpp"
 
+#include <simavr/avr_eeprom.h>
 #include <simavr/avr_extint.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/sim_elf.h>
 #include <simavr/sim_interrupts.h>
 
+#include <cstdarg>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -19,9 +22,19 @@ constexpr uint16_t kMemoryStart = 0x200;  // registers are below
 // simavr's callbacks know the avr_t only.
 Mcu* the_mcu = nullptr;
 
+// simavr's own would mix its words into the answers on standard output.
+void log_to_standard_error(avr_t*, const int level, const char* format, va_list words) {
+  if (level <= LOG_ERROR) vfprintf(stderr, format, words);
+}
+
+avr_t* make_mcu() {
+  avr_global_logger_set(log_to_standard_error);
+  return avr_make_mcu_by_name("atmega2560");
+}
+
 }  // namespace
 
-Mcu::Mcu(const std::string& elf) : avr_(avr_make_mcu_by_name("atmega2560")) {
+Mcu::Mcu(const std::string& elf) : avr_(make_mcu()) {
   the_mcu = this;
   elf_firmware_t firmware = {};
   if (elf_read_firmware(elf.c_str(), &firmware) != 0) {
@@ -40,13 +53,17 @@ Mcu::Mcu(const std::string& elf) : avr_(avr_make_mcu_by_name("atmega2560")) {
 }
 
 void Mcu::run_until(uint64_t cycle) {
-  while (now() < cycle) {
+  interrupted_ = false;
+  if (now() >= cycle) return;
+  after(cycle - now(), wake_up, this);  // a sleeping CPU jumps from timer to timer
+  while (now() < cycle && !interrupted_) {
     const int state = avr_run(avr_);
     if (state == cpu_Done || state == cpu_Crashed) {
       throw std::runtime_error("the firmware has crashed");
     }
     if (has_reset_) mend_after_reset();
   }
+  avr_cycle_timer_cancel(avr_, wake_up, this);
 }
 
 void Mcu::reset(Reset kind) {
@@ -56,6 +73,16 @@ void Mcu::reset(Reset kind) {
   avr_reset(avr_);
   mend_after_reset();
   set_reset_flag(kind == Reset::POWER_ON ? avr_->reset_flags.porf : avr_->reset_flags.extrf);
+}
+
+bool Mcu::flip_eeprom(unsigned address, uint8_t mask) {
+  if (address > avr_->e2end) return false;
+  uint8_t byte = 0;
+  avr_eeprom_desc_t place = {&byte, static_cast<uint16_t>(address), 1};
+  avr_ioctl(avr_, AVR_IOCTL_EEPROM_GET, &place);
+  byte ^= mask;
+  avr_ioctl(avr_, AVR_IOCTL_EEPROM_SET, &place);
+  return true;
 }
 
 void Mcu::hang() {
@@ -117,6 +144,8 @@ avr_cycle_count_t Mcu::repeat(avr_t*, avr_cycle_count_t when, void* parameter) {
   repeated.action();
   return when + repeated.cycles;
 }
+
+avr_cycle_count_t Mcu::wake_up(avr_t*, avr_cycle_count_t, void*) { return 0; }
 
 void Mcu::changed(avr_irq_t*, uint32_t value, void* parameter) {
   // outputs carry a mark in a higher bit; interrupts come with their number

@@ -29,9 +29,12 @@ class Mcu {
   Mcu(const Mcu&) = delete;
   Mcu& operator=(const Mcu&) = delete;
 
-  // Run to this time or a little further; a sleeping CPU jumps from timer to timer.
+  // Run to this time or an instruction further, or until interrupt().
   // Throws std::runtime_error if the firmware has crashed.
   void run_until(uint64_t cycle);
+
+  // Let run_until() return after the instruction that is being executed.
+  void interrupt() { interrupted_ = true; }
 
   uint64_t now() const { return before_reset_ + avr_->cycle; }
   uint64_t asleep() const { return asleep_; }
@@ -39,6 +42,9 @@ class Mcu {
 
   // From outside. Power-on also wipes the memory; the EEPROM stays.
   void reset(Reset kind);
+
+  // Flip bits of a byte in the EEPROM; false if there is no such address.
+  bool flip_eeprom(unsigned address, uint8_t mask);
 
   // Let the main loop run in a circle for ever; interrupts go on.
   void hang();
@@ -79,6 +85,7 @@ class Mcu {
   static void sleep_without_waiting(avr_t* avr, avr_cycle_count_t cycles);
   static void note_reset(avr_t* avr);
   static avr_cycle_count_t repeat(avr_t* avr, avr_cycle_count_t when, void* parameter);
+  static avr_cycle_count_t wake_up(avr_t* avr, avr_cycle_count_t when, void* parameter);
   static void changed(avr_irq_t* irq, uint32_t value, void* parameter);
 
   void mend_after_reset();
@@ -92,6 +99,7 @@ class Mcu {
   uint64_t asleep_ = 0;
   unsigned resets_ = 0;
   bool has_reset_ = false;
+  bool interrupted_ = false;
   void (*inner_reset_)(avr_t*) = nullptr;
   std::vector<std::unique_ptr<Repeated>> repeated_;
   std::vector<std::unique_ptr<std::function<void(bool)>>> watchers_;

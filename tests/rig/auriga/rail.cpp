@@ -49,6 +49,7 @@ void Rail::move(int way) {
   }
   position_ = next;
   switch_.press(position_ <= numbers_.switch_at);
+  if (way != 0) on_moved_(position_);
 }
 
 }  // namespace rig

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 
 #include "mcu.hpp"
 #include "power.hpp"
@@ -26,6 +27,9 @@ class Rail {
   int64_t position() const { return position_; }
   Switch& limit_switch() { return switch_; }
 
+  // Call with the position after every step that was made.
+  void on_moved(std::function<void(int64_t)> action) { on_moved_ = std::move(action); }
+
   // --- what a stepper driver would have complained about ---
 
   uint64_t steps() const { return steps_; }
@@ -47,6 +51,7 @@ class Rail {
   RailNumbers numbers_;
   Switch switch_;
   int64_t position_;
+  std::function<void(int64_t)> on_moved_ = [](int64_t) {};
   bool backwards_ = false;
   uint64_t raised_at_ = 0;
   uint64_t direction_at_ = 0;

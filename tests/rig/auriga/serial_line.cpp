@@ -1,46 +1,8 @@
 #include "serial_line.hpp"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
-#include <stdlib.h>
-#include <termios.h>
-#include <unistd.h>
-
-#include <system_error>
-
 #include "mcu.hpp"
 
 namespace rig {
-namespace {
-
-[[noreturn]] void fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), what);
-}
-
-speed_t termios_speed(uint32_t baud) {
-  switch (baud) {
-    case 115200:
-      return B115200;
-    case 500000:
-      return B500000;
-    case 1000000:
-      return B1000000;
-    default:
-      throw std::invalid_argument("no such speed of a terminal");
-  }
-}
-
-}  // namespace
-
-void ByteQueue::put(uint8_t byte, uint64_t now, const LineFaults& faults, std::mt19937& chance) {
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  if (faults.lose > 0 && share(chance) < faults.lose) return;
-  if (faults.flip > 0 && share(chance) < faults.flip) byte ^= 1 << (chance() % 8);
-  const uint64_t due = now + static_cast<uint64_t>(faults.delay_s * kCpuHz);
-  bytes_.push_back({due, byte});
-  if (faults.duplicate > 0 && share(chance) < faults.duplicate) bytes_.push_back({due, byte});
-}
 
 std::optional<uint8_t> ByteQueue::take(uint64_t now) {
   if (bytes_.empty() || bytes_.front().due > now) return std::nullopt;
@@ -49,92 +11,49 @@ std::optional<uint8_t> ByteQueue::take(uint64_t now) {
   return byte;
 }
 
-SerialLine::SerialLine(std::string path, uint32_t baud) : path_(std::move(path)), baud_(baud) {
-  plug_in();
+std::optional<uint64_t> ByteQueue::next_due() const {
+  if (bytes_.empty()) return std::nullopt;
+  return bytes_.front().due;
 }
 
-SerialLine::~SerialLine() { unplug(); }
-
-void SerialLine::plug_in() {
-  if (master_ >= 0) return;
-  master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) fail("pseudo terminal");
-  termios settings;
-  tcgetattr(master_, &settings);
-  cfmakeraw(&settings);
-  tcsetattr(master_, TCSANOW, &settings);
-  // only a terminal that was closed once tells that nobody has it open
-  const int slave = open(ptsname(master_), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (slave < 0) fail(ptsname(master_));
-  close(slave);
-  unlink(path_.c_str());
-  if (symlink(ptsname(master_), path_.c_str()) != 0) fail(path_.c_str());
-}
-
-void SerialLine::unplug() {
-  if (master_ < 0) return;
-  unlink(path_.c_str());
-  close(master_);
-  master_ = -1;
-  is_open_ = false;
-  to_board_.clear();
-  to_host_.clear();
-  leaving_.clear();
-}
-
-bool SerialLine::exchange(uint64_t now) {
-  if (master_ < 0) {
-    to_host_.clear();
-    return false;
-  }
-  pollfd state = {master_, POLLIN, 0};
-  poll(&state, 1, 0);
-  const bool was_open = is_open_;
-  is_open_ = !(state.revents & POLLHUP);
-  if (state.revents & POLLIN) read_from_host(now);
-  write_to_host(now);
-  return is_open_ && !was_open;
+void SerialLine::send_to_board(uint8_t byte, uint64_t now) {
+  ++bytes_to_board_;
+  carry(byte, now, to_board_);
 }
 
 void SerialLine::send_to_host(uint8_t byte, uint64_t now) {
   ++bytes_to_host_;
-  if (!is_cut_) to_host_.put(byte, now, faults_, chance_);
+  carry(byte, now, to_host_);
+  if (byte == 0) on_frame_sent_();
 }
 
-bool SerialLine::host_talks_at_our_speed() const {
-  termios settings;
-  tcgetattr(master_, &settings);
-  return cfgetospeed(&settings) == termios_speed(baud_);
+void SerialLine::unplug() {
+  is_plugged_ = false;
+  to_board_.clear();
+  to_host_.clear();
 }
 
-void SerialLine::read_from_host(uint64_t now) {
-  uint8_t bytes[1024];
-  const ssize_t count = read(master_, bytes, sizeof bytes);
-  if (count <= 0) return;
-  if (!host_talks_at_our_speed()) {
-    wrong_baud_ += count;
+void SerialLine::carry(uint8_t byte, uint64_t now, ByteQueue& queue) {
+  if (!is_plugged_) return;
+  if (is_cut_ || happens(faults_.lose)) {
+    ++damage_.lost;
     return;
   }
-  for (ssize_t i = 0; i < count; ++i) {
-    ++bytes_to_board_;
-    if (!is_cut_) to_board_.put(bytes[i], now, faults_, chance_);
+  if (happens(faults_.flip)) {
+    byte ^= 1 << (chance_() % 8);
+    ++damage_.flipped;
+  }
+  if (faults_.delay_s > 0) ++damage_.delayed;
+  const uint64_t due = now + static_cast<uint64_t>((latency_s_ + faults_.delay_s) * kCpuHz);
+  queue.put(byte, due);
+  if (happens(faults_.duplicate)) {
+    queue.put(byte, due);
+    ++damage_.duplicated;
   }
 }
 
-void SerialLine::write_to_host(uint64_t now) {
-  while (const auto byte = to_host_.take(now)) leaving_.push_back(*byte);
-  if (!is_open_) leaving_.clear();  // the bridge sends whether somebody listens or not
-  while (!leaving_.empty()) {
-    uint8_t bytes[1024];
-    size_t count = 0;
-    while (count < sizeof bytes && count < leaving_.size()) {
-      bytes[count] = leaving_[count];
-      ++count;
-    }
-    const ssize_t written = write(master_, bytes, count);
-    if (written <= 0) return;
-    leaving_.erase(leaving_.begin(), leaving_.begin() + written);
-  }
+bool SerialLine::happens(double share) {
+  return share > 0 && std::uniform_real_distribution<double>(0.0, 1.0)(chance_) < share;
 }
 
 }  // namespace rig

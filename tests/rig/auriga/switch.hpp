@@ -6,10 +6,14 @@ namespace rig {
 
 class Switch {
  public:
+  enum class Health { WHOLE, CUT, STUCK };  // stuck closed: pressing it shows nothing
+
   Switch(Mcu& mcu, Pin pin) : mcu_(mcu), pin_(pin) { show(); }
 
   bool pressed() const { return pressed_; }
-  bool open() const { return pressed_ || cut_; }
+  bool open() const {
+    return health_ == Health::CUT || (pressed_ && health_ == Health::WHOLE);
+  }
 
   void press(bool pressed) {
     if (pressed == pressed_) return;
@@ -17,8 +21,8 @@ class Switch {
     show();
   }
 
-  void cut(bool is_cut) {
-    cut_ = is_cut;
+  void become(Health health) {
+    health_ = health;
     show();
   }
 
@@ -28,7 +32,7 @@ class Switch {
   Mcu& mcu_;
   Pin pin_;
   bool pressed_ = false;
-  bool cut_ = false;
+  Health health_ = Health::WHOLE;
 };
 
 }  // namespace rig

@@ -16,7 +16,7 @@ TickWatch::TickWatch(Mcu& mcu) : mcu_(mcu) {
   mcu.watch_interrupt(kTimer3CompareA, [this](bool begins) { on_tick(begins); });
   avr_irq_t* pwm = avr_iomem_getirq(mcu.avr(), kOcr1al, nullptr, AVR_IOMEM_IRQ_ALL);
   avr_irq_register_notify(pwm, on_pwm, this);
-  mcu.on_reset([this] { began_ = round_began_ = 0; });
+  mcu.on_reset([this] { began_ = round_began_ = since_reset_ = 0; });
 }
 
 void TickWatch::forget_statistics() {
@@ -62,6 +62,7 @@ void TickWatch::on_tick(bool begins) {
   }
   began_ = now;
   ++ticks_;
+  ++since_reset_;
 }
 
 }  // namespace rig

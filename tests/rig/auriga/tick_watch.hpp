@@ -14,6 +14,7 @@ class TickWatch {
   void forget_statistics();
 
   uint64_t ticks() const { return ticks_; }
+  uint64_t since_reset() const { return since_reset_; }  // ticks; never forgotten
   uint64_t late_ticks() const { return late_; }  // began more than half a tick after its time
   uint64_t longest_interval() const { return longest_interval_; }  // cycles
   uint64_t shortest_interval() const { return ticks_ > 1 ? shortest_interval_ : 0; }
@@ -33,6 +34,7 @@ class TickWatch {
   uint64_t began_ = 0;
   uint64_t in_tick_ = 0;
   uint64_t ticks_ = 0;
+  uint64_t since_reset_ = 0;
   uint64_t late_ = 0;
   uint64_t longest_interval_ = 0;
   uint64_t shortest_interval_ = ~uint64_t{0};

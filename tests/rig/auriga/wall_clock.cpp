@@ -2,8 +2,6 @@
 
 #include <time.h>
 
-#include <algorithm>
-
 #include "mcu.hpp"
 
 namespace rig {
@@ -19,31 +17,21 @@ double monotonic_s() {
 
 }  // namespace
 
-WallClock::WallClock(double speed)
-    : speed_(speed), origin_s_(monotonic_s()), began_s_(origin_s_) {}
+WallClock::WallClock() : origin_s_(monotonic_s()) {}
 
 void WallClock::wait_for(uint64_t cycle) {
-  const double ahead_s = due_s(cycle) - monotonic_s();
+  const double ahead_s = time_s(cycle) - monotonic_s();
   if (ahead_s > 0) {
     const auto whole_s = static_cast<time_t>(ahead_s);
     const timespec pause = {whole_s, static_cast<long>((ahead_s - whole_s) * 1e9)};
     nanosleep(&pause, nullptr);
-    slept_s_ += ahead_s;
-    return;
+  } else if (-ahead_s > kLargestLagS) {
+    origin_s_ += -ahead_s;
   }
-  worst_lag_s_ = std::max(worst_lag_s_, -ahead_s);
-  if (-ahead_s > kLargestLagS) origin_s_ += -ahead_s;
 }
 
-double WallClock::due_s(uint64_t cycle) const {
-  return origin_s_ + static_cast<double>(cycle) / (kCpuHz * speed_);
-}
-
-double WallClock::elapsed_s() const { return monotonic_s() - began_s_; }
-
-void WallClock::forget_statistics() {
-  began_s_ = monotonic_s();
-  worst_lag_s_ = slept_s_ = 0;
+double WallClock::time_s(uint64_t cycle) const {
+  return origin_s_ + static_cast<double>(cycle) / kCpuHz;
 }
 
 }  // namespace rig
