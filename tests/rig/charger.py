@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 
+from drivers.registry import Devices
 from drivers.simulator.garage import SimulatedGarage
 from drivers.simulator.parameters import SimulationParameters
 from server.composition import running
@@ -49,11 +50,14 @@ async def running_charger(
     """
     async with running_rig(programs) as rig:
         settings = Settings(robot=RobotSettings(driver="arduino", board=rig.machine.settings))
-        around = GarageAroundRig(rig, settings.camera.optics, SimulationParameters(), seed)
-        async with running(settings, folder=None, devices=around.devices()) as services:
+        garage = GarageAroundRig(rig, settings.camera.optics, SimulationParameters(), seed).garage
+        devices = Devices(
+            robot=rig.robot(), camera=garage.camera, station=garage.station, garage=garage
+        )
+        async with running(settings, folder=None, devices=devices) as services:
             if parked:
                 await park_first(services)
-            yield Charger(rig, around.garage, services)
+            yield Charger(rig, garage, services)
 
 
 async def do_job(services: Services, kind: JobType) -> Job:

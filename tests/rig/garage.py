@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Protocol
 
 from drivers.camera import CameraModel
-from drivers.registry import Devices
 from drivers.simulator.following import FollowedMotors, without_motors
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.parameters import SimulationParameters
@@ -67,13 +66,6 @@ class GarageAroundRig:
         )
         self._motors = FollowedMotors(self.garage.world)
         rig.control.on_sample(self._follow)
-
-    def devices(self) -> Devices:
-        """The real driver at the rig, and the garage's camera and station."""
-        garage = self.garage
-        return Devices(
-            robot=self._rig.robot(), camera=garage.camera, station=garage.station, garage=garage
-        )
 
     def _follow(self, sample: TrueState) -> None:
         self._motors.move(true_joints(self._rig.machine, sample), sample.at_s)

@@ -21,7 +21,7 @@ from drivers.arduino.driver import ArduinoRobot
 from drivers.arduino.errors import BoardNotFoundError, BoardSilentError
 from drivers.robot import BoardState, NotConnectedError
 from tests.rig.build import Programs
-from tests.rig.device.running import running_device
+from tests.rig.device.running import robot_at, running_device
 from tests.rig.machine import standing_machine
 from tests.support.eventually import eventually
 from twin.motion import MotionLimits
@@ -44,7 +44,7 @@ async def reconnect(robot: ArduinoRobot) -> None:
 
 async def test_the_board_introduces_itself_after_its_port_was_opened(programs: Programs) -> None:
     async with running_device(programs) as rig:
-        robot = rig.robot()
+        robot = robot_at(rig)
         await reconnect(robot)
         identity = await robot.connect()
         state = await anext(aiter(robot.telemetry()))
@@ -62,7 +62,7 @@ async def test_a_pulled_plug_ends_the_link_and_a_plug_put_back_begins_it_anew(
     programs: Programs,
 ) -> None:
     async with running_device(programs) as rig:
-        robot = rig.robot()
+        robot = robot_at(rig)
         await reconnect(robot)
         reader = robot.telemetry()
         await rig.control.unplug()
