@@ -8,7 +8,7 @@ from drivers.arduino.link.go_back_n import NUMBERS, Numbered, Sender
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
 from drivers.arduino.protocol.messages import EventKind, Refusal
-from drivers.arduino.words import refusal_words
+from drivers.arduino.words import refusal_reason, refusal_words
 from drivers.robot import BoardRefusedError, RobotDriverError
 
 Status = messages.Ack | messages.Telemetry
@@ -69,7 +69,11 @@ class Commands:
             if refusal is None:
                 answer.set_result(None)
             else:
-                answer.set_exception(BoardRefusedError(f"Refused: {refusal_words(refusal)}."))
+                answer.set_exception(
+                    BoardRefusedError(
+                        f"Refused: {refusal_words(refusal)}.", refusal_reason(refusal)
+                    )
+                )
         if handled:
             self._in_doubt = False
 

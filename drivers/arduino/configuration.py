@@ -101,4 +101,5 @@ def _slide(settings: BoardSettings) -> messages.ConfigRho3:
         stall_ms=round(slide.stall_s * 1000),
         following_error=min(scale.units(slide.following_error_mm), 0xFFFF),
         settled=max(min(scale.units(slide.settled_mm), 0xFFFF), 1),
+        near=max(min(scale.units(slide.near_mm), 0xFFFF), 1),
     )

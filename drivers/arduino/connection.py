@@ -13,7 +13,7 @@ from drivers.arduino.handshake import Handshake
 from drivers.arduino.link.frames import Frame
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
-from drivers.arduino.protocol.messages import Fault, ResetCause, State
+from drivers.arduino.protocol.messages import Fault, ResetCause, State, TelemetryFlag
 from drivers.arduino.scale import AxisScale
 from drivers.arduino.serial_port import Line, OpenLine
 from drivers.arduino.session import Session
@@ -77,6 +77,7 @@ class Connection:
         self._tracker = Tracker(scales, rules, hello.queue_capacity)
         self._fresh = asyncio.Event()
         self._stops_under_way = 0
+        self._told_damage = False
         self._emergency: asyncio.Task[None] | None = None
         self.session = Session(port, self._take_sample, on_lost)
 
@@ -179,6 +180,9 @@ class Connection:
             return
         if self._tracker.strayed:
             self._catch_stray(sample)
+        if TelemetryFlag.KEPT_DAMAGED in TelemetryFlag(sample.flags) and not self._told_damage:
+            self._told_damage = True
+            _log.warning("the configuration in the board's EEPROM was damaged; it was sent anew")
         if not self._stops_under_way:
             self._fresh.set()
         self._on_state(state)
@@ -216,6 +220,8 @@ class _Switch:
         self.session: Session | None = None
 
     def hear(self, frames: list[Frame], received_s: float) -> None:
+        if not frames and self.handshake is not None:
+            self.handshake.hear_noise()
         for frame in frames:
             if self.session is not None:
                 self.session.hear(frame, received_s)
@@ -253,6 +259,8 @@ async def connect_board(
         hello = await switch.handshake.run()
         if hello.reset_cause == ResetCause.WATCHDOG:
             _log.error("the board's firmware hung and was restarted by its watchdog")
+        elif hello.reset_cause == ResetCause.BROWN_OUT:
+            _log.warning("the board's supply broke down; check its power supply and its cable")
         connection = Connection(
             line,
             hello,

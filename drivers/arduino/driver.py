@@ -144,7 +144,8 @@ class ArduinoRobot:
         if not 0.05 < force_n <= largest_n:  # also refuses NaN
             raise BoardRefusedError(
                 f"A force limit of {force_n:g} N is not possible; it must be above 0 and at most "
-                f"{largest_n:g} N."
+                f"{largest_n:g} N.",
+                "bad_value",
             )
         await self._require().command(messages.ForceLimit(force_dn=round(force_n * 10)))
 

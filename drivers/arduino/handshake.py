@@ -17,6 +17,9 @@ BOOT_S = 3.0
 REQUEST_PERIOD_S = 0.1
 ANSWER_S = 1.0
 
+FIRMWARE_VERSION = (0, 2, 0)
+"""Of the firmware in this version's sources, firmware/core/version.hpp."""
+
 
 class Handshake:
     """Finds out who is at the other end of a port.
@@ -28,10 +31,15 @@ class Handshake:
     def __init__(self, port: Port) -> None:
         self._port = port
         self._frames: asyncio.Queue[Frame | str] = asyncio.Queue()
+        self._noise = False
 
     def hear(self, frame: Frame) -> None:
         """Take a frame of the board."""
         self._frames.put_nowait(frame)
+
+    def hear_noise(self) -> None:
+        """Bytes have come that are no frame of a board."""
+        self._noise = True
 
     def lose(self, words: str) -> None:
         """The port broke."""
@@ -53,12 +61,7 @@ class Handshake:
         request = messages.HelloRequest(protocol_hash=PROTOCOL_HASH, session=session)
         hello = await self._ask(request)
         if hello.protocol_hash != PROTOCOL_HASH:
-            version = f"{hello.firmware_major}.{hello.firmware_minor}.{hello.firmware_patch}"
-            raise WrongFirmwareError(
-                f"The board's firmware {version} speaks another version of the protocol "
-                f"({hello.protocol_hash:08X} instead of {PROTOCOL_HASH:08X}). Flash the firmware "
-                "that belongs to this version; see drivers/arduino/firmware/README.md."
-            )
+            raise WrongFirmwareError(_other_version(hello))
         return hello
 
     async def _ask(self, request: messages.HelloRequest) -> messages.Hello:
@@ -74,6 +77,12 @@ class Handshake:
                             return message
             except TimeoutError:
                 continue
+        if self._noise:
+            raise BoardSilentError(
+                "Something answers on the port, but not as a motion board does: it is another "
+                "device, has other firmware, or talks at another speed. Check robot.port and flash "
+                "the firmware; see drivers/arduino/firmware/README.md."
+            )
         raise BoardSilentError(
             "The port is open, but no motion board answers. Check its power and that the firmware "
             "is flashed; see drivers/arduino/firmware/README.md."
@@ -84,3 +93,21 @@ class Handshake:
         if isinstance(item, str):
             raise BoardSilentError(item)
         return item
+
+
+def _other_version(hello: messages.Hello) -> str:
+    version = (hello.firmware_major, hello.firmware_minor, hello.firmware_patch)
+    if version == FIRMWARE_VERSION:
+        relation = "has the version of this program"
+    else:
+        older = "older" if version < FIRMWARE_VERSION else "newer"
+        relation = f"is {older} than this program, which has {_dotted(FIRMWARE_VERSION)}"
+    return (
+        f"The board's firmware {_dotted(version)} {relation}, and speaks another version of the "
+        f"protocol ({hello.protocol_hash:08X} instead of {PROTOCOL_HASH:08X}). Flash the firmware "
+        "that belongs to this version; see drivers/arduino/firmware/README.md."
+    )
+
+
+def _dotted(version: tuple[int, int, int]) -> str:
+    return ".".join(map(str, version))

@@ -46,7 +46,8 @@ class OpenLine(Protocol):
 
         Args:
             device: As the configuration names it.
-            on_frames: Gets intact frames and when their last byte came, in event loop time.
+            on_frames: Gets intact frames and when their last byte came, in event loop time. Until
+                the first one it also hears of other bytes: then there are no frames.
             on_lost: Gets a sentence when the line breaks; called at most once.
 
         Raises:
@@ -100,6 +101,7 @@ class SerialPort:
 
     def _read(self) -> None:
         frames = FrameReader(FROM_BOARD)
+        understood = False
         while not self._closing.is_set():
             try:
                 data = self._line.read(max(1, self._line.in_waiting))
@@ -108,7 +110,8 @@ class SerialPort:
                 return
             received_s = self._loop.time()
             found = list(frames.feed(data))
-            if found:
+            if found or (data and not understood):
+                understood = understood or bool(found)
                 self._call(partial(self._on_frames, found, received_s))
 
     def _write(self) -> None:

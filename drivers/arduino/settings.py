@@ -43,14 +43,17 @@ class SlideSettings(Group):
 
     The board makes up for friction and back EMF, which leaves the bare inertia of the motor: with a
     time constant of 50 ms, m = 110 x 50 = 5500 PWM per count/ms^2. So the gains follow from the
-    wanted eigenfrequency and a damping of 1: kp = m w^2 and kd = 2 m w, here w = 0.02 per ms.
+    wanted eigenfrequency and a damping of 1: kp = m w^2 and kd = 2 m w, here w = 0.02 per ms. The
+    loop stays stable while m ki / 1000 < kd kp (Routh); the integral is a quarter of that.
     """
 
     encoder_reversed: bool = False
     kp_pwm_per_count: Annotated[float, Field(ge=0, le=255)] = 2.2
-    ki_pwm_per_count_s: Annotated[float, Field(ge=0, le=999)] = 5.0
+    ki_pwm_per_count_s: Annotated[float, Field(ge=0, le=999)] = 20.0
     kd_pwm_per_count_ms: Annotated[float, Field(ge=0, le=255)] = 220.0
-    integral_pwm_max: Pwm = 60
+    integral_pwm_max: Pwm = Field(
+        150, description="carries the load of the insertion; less and the slide stops short"
+    )
     friction_pwm: Pwm = Field(12, description="overcomes the dry friction of motor and screw")
     back_emf_pwm_per_count_ms: Annotated[float, Field(ge=0, le=255)] = Field(
         110.0, description="share of the PWM that the speed of the motor takes"
@@ -60,7 +63,12 @@ class SlideSettings(Group):
     force_max_n: Annotated[float, Field(gt=0, le=3000)] = 150.0
     stall_s: Annotated[float, Field(gt=0, le=10)] = 0.1
     following_error_mm: Positive = 3.0
-    settled_mm: Positive = 0.02
+    settled_mm: Positive = Field(0.02, description="nearer to its set point the slide has arrived")
+    near_mm: Positive = Field(
+        0.1,
+        description="where it stands still for half a second: nearer it has arrived, too, further "
+        "away that is a following error",
+    )
 
     @model_validator(mode="after")
     def _limit_is_possible(self) -> Self:
@@ -69,6 +77,9 @@ class SlideSettings(Group):
                 f"force_limit_n ({self.force_limit_n:g}) must not exceed "
                 f"force_max_n ({self.force_max_n:g})"
             )
+            raise ValueError(msg)
+        if self.near_mm < self.settled_mm:
+            msg = f"near_mm ({self.near_mm:g}) must not be below settled_mm ({self.settled_mm:g})"
             raise ValueError(msg)
         return self
 

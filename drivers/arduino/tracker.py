@@ -26,11 +26,12 @@ ON_THE_LINE = {State.RUN, State.READY}
 """States in which the segments decide where the board is."""
 
 _WHY_NO_MOTION = {
-    State.HOMING: "the robot is homing",
-    State.STOPPING: "the robot is still stopping",
-    State.RUN: "the robot is still moving",
-    State.FAULT: "a fault is latched and the robot still moves",
+    State.HOMING: ("homing", "the robot is homing"),
+    State.STOPPING: ("stopping", "the robot is still stopping"),
+    State.RUN: ("moving", "the robot is still moving"),
+    State.FAULT: ("fault_latched", "a fault is latched and the robot still moves"),
 }
+"""Stable names of the reasons, and the sentences."""
 
 
 class Tracker:
@@ -100,7 +101,9 @@ class Tracker:
         self._rules.check(segments, *self._in_mm(end))
         for number, segment in enumerate(segments):
             if ticks_of(segment.duration_s) > messages.MAX_SEGMENT_TICKS:
-                raise BoardRefusedError(f"Segment {number} was refused: it is too long.")
+                raise BoardRefusedError(
+                    f"Segment {number} was refused: it is too long.", "bad_ticks"
+                )
         if self._line.end is None:
             self._line.begin(end.position, sample.next_segment)
         wired: list[messages.Segment] = []
@@ -121,8 +124,9 @@ class Tracker:
         moving = TelemetryFlag.MOVING in TelemetryFlag(sample.flags)
         state = State(sample.state)
         if moving or state in {State.HOMING, State.STOPPING, State.RUN}:
-            why = _WHY_NO_MOTION.get(state, f"the board is still moving ({STATES[state].value})")
-            raise BoardRefusedError(f"No motion is possible: {why}.")
+            otherwise = ("moving", f"the board is still moving ({STATES[state].value})")
+            reason, words = _WHY_NO_MOTION.get(state, otherwise)
+            raise BoardRefusedError(f"No motion is possible: {words}.", reason)
         one, two, three = (
             nearest_within_unit(scale.position(mm), units)
             for scale, mm, units in zip(self._scales, first.start, sample.commanded, strict=True)

@@ -61,6 +61,13 @@ def refusal_words(refusal: int) -> str:
         return f"the board gives a reason unknown to this version ({refusal})"
 
 
+def refusal_reason(refusal: int) -> str:
+    """Stable name of a refusal, as BoardRefusedError has it."""
+    if refusal == Refusal.NONE or refusal not in set(Refusal):
+        return "unknown"
+    return Refusal(refusal).name.lower()
+
+
 def fault_of(fault: int, detail: int, flags: TelemetryFlag) -> BoardFault | None:
     """A latched fault in words.
 
@@ -84,7 +91,7 @@ def fault_of(fault: int, detail: int, flags: TelemetryFlag) -> BoardFault | None
         if pressed
         else "Emergency stop.",
         FaultCode.LIMIT_SWITCH: f"{switch} opened.",
-        FaultCode.FOLLOWING_ERROR: "The slide is too far away from where it should be.",
+        FaultCode.FOLLOWING_ERROR: "The slide is too far from where it should be, or stays there.",
         FaultCode.STALL: "The slide pushes at its force limit and does not move.",
         FaultCode.QUEUE_UNDERRUN: "The queue ran empty while the robot was moving.",
         FaultCode.HEARTBEAT_LOST: "The host has fallen silent.",

@@ -37,4 +37,14 @@ class QueueFullError(RobotDriverError):
 
 
 class BoardRefusedError(RobotDriverError):
-    """The board refused a command in its present state; the message says which and why."""
+    """The board refused a command in its present state; the message says which and why.
+
+    Args:
+        message: The sentence.
+        reason: Stable name of why, such as not_homed; those of the refusals of
+            drivers/arduino/protocol/messages.toml in small letters.
+    """
+
+    def __init__(self, message: str, reason: str = "refused") -> None:
+        super().__init__(message)
+        self.reason = reason

@@ -14,6 +14,9 @@ from twin.motion.segments import Segment
 
 JOINTS = ("rho1", "rho2", "rho3")
 
+Objection = tuple[str, str]
+"""Stable name of a reason, and the sentence."""
+
 DURATION_TOLERANCE = 1e-6
 """A plan cut into equal parts may round up."""
 
@@ -55,50 +58,55 @@ class SegmentRules:
                 before it ends, leaves the travel or is too fast; the message says which and why.
         """
         for number, segment in enumerate(segments):
-            reason = (
+            objection = (
                 self._bad_number(segment)
                 or self._gap(segment, position, velocity)
                 or self._beyond_travel(segment)
                 or self._too_fast(segment)
             )
-            if reason:
-                raise BoardRefusedError(f"Segment {number} was refused: {reason}.")
+            if objection:
+                reason, words = objection
+                raise BoardRefusedError(f"Segment {number} was refused: {words}.", reason)
             position, velocity = segment.end, segment.end_velocity
 
-    def _bad_number(self, segment: Segment) -> str | None:
+    def _bad_number(self, segment: Segment) -> Objection | None:
         numbers = (segment.duration_s, *segment.start, *segment.velocity, *segment.acceleration)
         if not all(math.isfinite(number) for number in numbers):
-            return "it contains a number that is not finite"
+            return "bad_value", "it contains a number that is not finite"
         if not 0 < segment.duration_s <= self.longest_s * (1 + DURATION_TOLERANCE):
-            return f"it lasts {segment.duration_s:g} s; the board takes up to {self.longest_s:g} s"
+            return (
+                "bad_ticks",
+                f"it lasts {segment.duration_s:g} s; the board takes up to {self.longest_s:g} s",
+            )
         return None
 
     def _gap(
         self, segment: Segment, position: JointPosition, velocity: JointVelocity
-    ) -> str | None:
+    ) -> Objection | None:
         for joint, q, end, v, end_v in zip(
             JOINTS, segment.start, position, segment.velocity, velocity, strict=True
         ):
             if abs(q - end) > self.position_tolerance_mm:
-                return f"{joint} jumps by {q - end:.4f} mm"
+                return "discontinuous", f"{joint} jumps by {q - end:.4f} mm"
             if abs(v - end_v) > self.velocity_tolerance_mm_s:
-                return f"the velocity of {joint} jumps by {v - end_v:.2f} mm/s"
+                return "rate_jump", f"the velocity of {joint} jumps by {v - end_v:.2f} mm/s"
         return None
 
-    def _beyond_travel(self, segment: Segment) -> str | None:
+    def _beyond_travel(self, segment: Segment) -> Objection | None:
         for joint, q, travel in zip(JOINTS, segment.end, self.travel, strict=True):
             if abs(travel.excess_mm(q)) > self.limit_tolerance_mm:
-                return f"{joint} would go to {q:.3f} mm, beyond its travel"
+                return "beyond_travel", f"{joint} would go to {q:.3f} mm, beyond its travel"
         return None
 
-    def _too_fast(self, segment: Segment) -> str | None:
+    def _too_fast(self, segment: Segment) -> Objection | None:
         for joint, v, end_v, limits in zip(
             JOINTS, segment.velocity, segment.end_velocity, self.limits, strict=True
         ):
             speed_mm_s = max(abs(v), abs(end_v))
             if speed_mm_s > limits.velocity_mm_s * (1 + self.speed_tolerance):
                 return (
+                    "too_fast",
                     f"{joint} would move at {speed_mm_s:.1f} mm/s; "
-                    f"it can do {limits.velocity_mm_s:g}"
+                    f"it can do {limits.velocity_mm_s:g}",
                 )
         return None

@@ -24,20 +24,12 @@ from drivers.arduino.protocol.messages import (
     TelemetryFlag,
 )
 from tests.support.fake_configuration import FakeConfiguration
+from tests.support.fake_hello import hello
 from tests.support.fake_queue import FakeQueue, whole_units
+from tests.support.fake_refusals import NOT_READY
 
-HOMING_TICKS = TICK_HZ // 20
-HELLO_TICKS = TICK_HZ // 20
+HOMING_TICKS = HELLO_TICKS = TICK_HZ // 20
 """A test does not want to wait for half a second."""
-
-_NOT_READY = {
-    State.BOOT: Refusal.NOT_CONFIGURED,
-    State.IDLE: Refusal.DRIVES_OFF,
-    State.HOMING: Refusal.HOMING,
-    State.RUN: Refusal.MOVING,
-    State.STOPPING: Refusal.STOPPING,
-    State.FAULT: Refusal.FAULT_LATCHED,
-}
 
 
 class FakeBoard:
@@ -66,6 +58,9 @@ class FakeBoard:
         self.heard: list[Message] = []
         self.refuse_next: Refusal | None = None
         self.events_to_lose = 0
+        self.version = (1, 2, 3)
+        self.stop_button = self.echo = False
+        self.chatter = b""
         self.restart()
 
     def restart(self) -> None:
@@ -96,6 +91,8 @@ class FakeBoard:
     def advance(self, tick: int) -> None:
         """Let the board live until a tick."""
         self._tick = tick
+        if self.chatter:
+            self._send_bytes(self.chatter)
         self._follow()
         timeout = messages.HEARTBEAT_TIMEOUT_MS * TICK_HZ // 1000
         if self._session and self.enabled and tick - self._heard_tick > timeout:
@@ -149,10 +146,19 @@ class FakeBoard:
             self.homed = False
         self.state = State.FAULT
 
+    def press_stop_button(self, *, pressed: bool = True) -> None:
+        """The emergency stop, which cuts the power of the motors."""
+        self.stop_button = pressed
+        if pressed:
+            self._latch(Fault.EMERGENCY_STOP, release=True)
+            self.homed = False
+
     # --- what it hears -----------------------------------------------------------------------
 
     def hear(self, data: bytes) -> None:
         """Take bytes of the host."""
+        if self.echo:
+            self._send_bytes(data)
         for frame in self._frames.feed(data):
             if self._rng.random() >= self.loss:
                 self._heard_tick = self._tick
@@ -171,11 +177,12 @@ class FakeBoard:
             self._acknowledge()
             return
         match message:
-            case messages.HelloRequest(session=session):
-                if session != self._session:
+            case messages.HelloRequest(protocol_hash=protocol_hash, session=session):
+                understood = protocol_hash == self._hash
+                if understood and session != self._session:
                     self._stop(release=False)
                     self._begin_session(session)
-                self._hello()
+                self._hello(session)
             case messages.Clock(token=token):
                 self._send(messages.ClockReply(token=token, tick=self._tick))
             case messages.Stop(category=category, token=token):
@@ -202,7 +209,7 @@ class FakeBoard:
                 return self._disable()
             case messages.Home():
                 if self.state is not State.READY:
-                    return _NOT_READY[self.state]
+                    return NOT_READY[self.state]
                 self.state, self.homed = State.HOMING, False
                 self._homing_until = self._tick + HOMING_TICKS
             case messages.ForceLimit(force_dn=force_dn):
@@ -210,6 +217,8 @@ class FakeBoard:
             case messages.ClearFault():
                 if self._moving:
                     return Refusal.MOVING
+                if self.fault is not Fault.NONE and self.stop_button:
+                    return Refusal.CAUSE_PRESENT
                 if self.fault is not Fault.NONE:
                     self.fault = Fault.NONE
                     self.state = State.READY if self.enabled else State.IDLE
@@ -218,7 +227,7 @@ class FakeBoard:
         return Refusal.NONE
 
     def _configure(self, part: Message) -> Refusal:
-        if self.state not in {State.BOOT, State.IDLE}:
+        if self.enabled or self._moving:
             return Refusal.NOT_AT_REST
         self._config.put(part)
         return Refusal.NONE
@@ -226,12 +235,13 @@ class FakeBoard:
     def _commit(self, crc: int) -> Refusal:
         refusal = self._config.commit(crc)
         if refusal is Refusal.NONE:
-            self.state, self.homed = State.IDLE, False
+            self.state = State.IDLE if self.state is State.BOOT else self.state
+            self.homed = False
         return refusal
 
     def _enable(self) -> Refusal:
         if self.state in {State.BOOT, State.FAULT}:
-            return _NOT_READY[self.state]
+            return NOT_READY[self.state]
         self.enabled = True
         self.state = State.READY if self.state is State.IDLE else self.state
         return Refusal.NONE
@@ -245,7 +255,7 @@ class FakeBoard:
 
     def _append(self, segment: messages.Segment) -> Refusal:
         if self.state not in {State.READY, State.RUN}:
-            return _NOT_READY[self.state]
+            return NOT_READY[self.state]
         if not self.homed:
             return Refusal.NOT_HOMED
         refusal = self.queue.append(segment, self._tick, self._config.rho1)
@@ -271,22 +281,14 @@ class FakeBoard:
     def _acknowledge(self) -> None:
         self._send(messages.Ack(self._events, self._refused_seq, self._refusal, self._stop_token))
 
-    def _hello(self) -> None:
+    def _hello(self, session: int) -> None:
         self._send(
-            messages.Hello(
+            hello(
                 protocol_hash=self._hash,
-                session=self._session,
-                board=1,
-                firmware_major=1,
-                firmware_minor=2,
-                firmware_patch=3,
+                session=session,
+                version=self.version,
                 boot_id=self._boot_id,
-                reset_cause=1,
-                previous_fault=0,
                 state=self.state,
-                queue_capacity=messages.QUEUE_CAPACITY,
-                segment_ticks=messages.SEGMENT_TICKS,
-                tick_hz=TICK_HZ,
                 config_crc=self._config.crc,
                 tick=self._tick,
             )
@@ -296,7 +298,7 @@ class FakeBoard:
         if not self._session:
             if self._tick >= self._hello_due:
                 self._hello_due = self._tick + HELLO_TICKS
-                self._hello()
+                self._hello(0)
             return
         shown = (self.state, self.fault, self._flags())
         if self._tick >= self._due or shown != self._shown:
@@ -315,6 +317,8 @@ class FakeBoard:
             flags |= TelemetryFlag.HOMED
         if self._moving:
             flags |= TelemetryFlag.MOVING
+        if self.stop_button:
+            flags |= TelemetryFlag.ESTOP_OPEN
         return flags
 
     def _telemetry(self) -> messages.Telemetry:
@@ -343,4 +347,6 @@ class FakeBoard:
             refused_seq=self._refused_seq,
             refusal=self._refusal,
             stop_token=self._stop_token,
+            supply_mv=12_000,
+            temperature_dc=251,
         )

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from drivers.arduino.protocol.message import Message
 
-PROTOCOL_HASH = 0xCCA96899
+PROTOCOL_HASH = 0x13345A36
 BAUD = 500000
 """Bits per second, 8N1."""
 TICK_HZ = 20000
@@ -43,6 +43,14 @@ TELEMETRY_MOVING_MS = 10
 """Period of the telemetry while anything moves."""
 TELEMETRY_REST_MS = 100
 """Period of the telemetry at rest."""
+TELEMETRY_CHANGE_MS = 2
+"""A change is told at once, but not sooner after the last telemetry."""
+ARRIVED_MS = 10
+"""rho3 has arrived when it stood so long within config_rho3.settled."""
+ARRIVAL_STANDSTILL_MS = 500
+"""Standing so long elsewhere it will not arrive any more."""
+ARRIVAL_TIMEOUT_MS = 3000
+"""Nor will it so long after its set point has come to rest."""
 HELLO_PERIOD_MS = 500
 """A board without a session says HELLO this often."""
 RATE_BITS_DROPPED = 16
@@ -144,6 +152,7 @@ class TelemetryFlag(IntFlag):
     FORCE_LIMITED = 1 << 7
     LATE_TICK = 1 << 8
     RX_OVERRUN = 1 << 9
+    KEPT_DAMAGED = 1 << 10
 
 
 class AxisFlag(IntFlag):
@@ -217,7 +226,7 @@ class EmergencyStop(Message):
 
 @dataclass(frozen=True, slots=True)
 class ConfigAxis(Message):
-    """Configuration of one axis; in BOOT and IDLE only. In force from CONFIG_COMMIT."""
+    """Configuration of one axis; with the drives off. In force from CONFIG_COMMIT."""
 
     TYPE: ClassVar[int] = 0x10
     SEQUENCED: ClassVar[bool] = True
@@ -246,8 +255,8 @@ class ConfigRho3(Message):
 
     TYPE: ClassVar[int] = 0x11
     SEQUENCED: ClassVar[bool] = True
-    LAYOUT: ClassVar[Struct] = Struct("<HHHBBHHHHHHH")
-    SHAPE: ClassVar[tuple[int, ...]] = (1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1)
+    LAYOUT: ClassVar[Struct] = Struct("<HHHBBHHHHHHHH")
+    SHAPE: ClassVar[tuple[int, ...]] = (1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1)
 
     kp_q8: int
     ki_q16: int
@@ -261,6 +270,7 @@ class ConfigRho3(Message):
     stall_ms: int
     following_error: int
     settled: int
+    near: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -434,8 +444,31 @@ class Telemetry(Message):
 
     TYPE: ClassVar[int] = 0x85
     SEQUENCED: ClassVar[bool] = False
-    LAYOUT: ClassVar[Struct] = Struct("<IBBBH3ii3hhhhBHHHBBBBB")
-    SHAPE: ClassVar[tuple[int, ...]] = (1, 1, 1, 1, 1, 3, 1, 3, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1)
+    LAYOUT: ClassVar[Struct] = Struct("<IBBBH3ii3hhhhBHHHBBBBBHh")
+    SHAPE: ClassVar[tuple[int, ...]] = (
+        1,
+        1,
+        1,
+        1,
+        1,
+        3,
+        1,
+        3,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+        1,
+    )
 
     tick: int
     state: int
@@ -457,6 +490,8 @@ class Telemetry(Message):
     refused_seq: int
     refusal: int
     stop_token: int
+    supply_mv: int
+    temperature_dc: int
 
 
 MESSAGES: dict[int, type[Message]] = {

@@ -20,6 +20,8 @@ from typing import ClassVar
 from drivers.arduino.protocol.message import Message
 '''
 
+LINE_LENGTH = 100
+
 _CODES = {"u8": "B", "i8": "b", "u16": "H", "i16": "h", "u32": "I", "i32": "i"}
 
 
@@ -66,7 +68,7 @@ def _message(message: MessageDefinition) -> str:
         f"    TYPE: ClassVar[int] = 0x{message.type:02X}",
         f"    SEQUENCED: ClassVar[bool] = {message.sequenced}",
         f'    LAYOUT: ClassVar[Struct] = Struct("<{layout}")',
-        f"    SHAPE: ClassVar[tuple[int, ...]] = {shape}",
+        *_fitting(f"    SHAPE: ClassVar[tuple[int, ...]] = {shape}"),
     ]
     if message.fields:
         lines.append("")
@@ -74,6 +76,14 @@ def _message(message: MessageDefinition) -> str:
         kind = "int" if field.count == 1 else f"tuple[{', '.join(['int'] * field.count)}]"
         lines.append(f"    {field.name}: {kind}")
     return "\n".join(lines) + "\n"
+
+
+def _fitting(line: str) -> list[str]:
+    """An assignment of a tuple as the formatter lays it out."""
+    if len(line) <= LINE_LENGTH:
+        return [line]
+    head, _, items = line.partition("(")
+    return [f"{head}(", *(f"        {item}," for item in items.rstrip(")").split(", ")), "    )"]
 
 
 def _table(definition: ProtocolDefinition) -> str:

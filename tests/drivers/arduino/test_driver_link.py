@@ -8,9 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from drivers.arduino import handshake
 from drivers.arduino.driver import ArduinoRobot
-from drivers.arduino.errors import BoardNotFoundError, BoardSilentError, WrongFirmwareError
+from drivers.arduino.errors import BoardNotFoundError
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.messages import Refusal
 from drivers.arduino.settings import BoardSettings
@@ -127,24 +126,6 @@ async def test_heartbeats_keep_the_drives_on(homed: ArduinoRobot) -> None:
     state = await until(homed, lambda s: s.received_at_s > end_s)
     assert state.enabled
     assert state.fault is None
-
-
-async def test_the_firmware_of_another_version_is_named(tmp_path: Path) -> None:
-    with (
-        board_cable(tmp_path, protocol_hash=0x1234ABCD) as cable,
-        pytest.raises(WrongFirmwareError, match=r"firmware 1\.2\.3 .*1234ABCD.*Flash"),
-    ):
-        await robot_at(cable).connect()
-
-
-async def test_a_port_where_nothing_answers(
-    cable: BoardCable, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(handshake, "BOOT_S", 0.05)
-    monkeypatch.setattr(handshake, "ANSWER_S", 0.2)
-    cable.change(lambda board: setattr(board, "mute", True))
-    with pytest.raises(BoardSilentError, match="no motion board answers"):
-        await robot_at(cable).connect()
 
 
 async def test_without_a_link_every_command_says_so(tmp_path: Path) -> None:

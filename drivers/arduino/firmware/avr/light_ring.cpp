@@ -11,33 +11,39 @@ namespace {
 using protocol::State;
 
 constexpr uint8_t kLights = 12;
-constexpr uint8_t kBrightness = 24;  // of 255: next to a sleeping person it is bright enough
+constexpr uint8_t kBright = 24;  // of 255: next to a sleeping person it is bright enough
+constexpr uint8_t kHalf = kBright / 2;
+constexpr uint8_t kThird = kBright / 3;
+constexpr uint16_t kRefreshMs = 500;
 
 // In the order of the wire.
 struct Colour {
   uint8_t green;
   uint8_t red;
   uint8_t blue;
-  bool operator==(const Colour& other) const {
-    return green == other.green && red == other.red && blue == other.blue;
-  }
 };
 
 Colour colour_of(State state) {
   switch (state) {
     case State::BOOT:
-      return {kBrightness / 3, kBrightness / 3, kBrightness / 3};
+      return {kThird, kThird, kThird};  // white
     case State::IDLE:
-      return {0, 0, kBrightness};
-    case State::FAULT:
-      return {0, kBrightness, 0};
+      return {0, 0, kBright};  // blue
+    case State::HOMING:
+      return {0, kHalf, kHalf};  // violet
+    case State::READY:
+      return {kBright, 0, 0};  // green
+    case State::RUN:
+      return {kHalf, 0, kHalf};  // cyan
+    case State::STOPPING:
+      return {kThird, kBright - kThird, 0};  // amber
     default:
-      return {kBrightness, 0, 0};
+      return {0, kBright, 0};  // red
   }
 }
 
-Colour shown = {1, 1, 1};  // none of them
-uint8_t lights_left = 0;
+State shown;
+uint16_t shown_for_ms = kRefreshMs;  // nothing was ever shown
 
 // A bit lasts 1.25 us = 20 cycles: high for 6 of them means 0, for 13 means 1. The port is outside
 // the range of single-bit instructions, so both levels are prepared.
@@ -70,15 +76,13 @@ void send_byte(uint8_t byte, uint8_t high, uint8_t low) {
       : [port] "e"(&LIGHT_RING_PORT), [high] "r"(high), [low] "r"(low));
 }
 
-// An interrupt between two bits would stretch them; between two lights it may come.
-void send_light(const Colour& colour) {
+// An interrupt between two bits would stretch them; between two bytes it may come.
+void send_undisturbed(uint8_t byte) {
   const uint8_t status = SREG;
   cli();
   const uint8_t low = static_cast<uint8_t>(LIGHT_RING_PORT & ~_BV(LIGHT_RING_BIT));
   const uint8_t high = static_cast<uint8_t>(low | _BV(LIGHT_RING_BIT));
-  send_byte(colour.green, high, low);
-  send_byte(colour.red, high, low);
-  send_byte(colour.blue, high, low);
+  send_byte(byte, high, low);
   SREG = status;
 }
 
@@ -86,17 +90,16 @@ void send_light(const Colour& colour) {
 
 void start() { LIGHT_RING_DDR |= _BV(LIGHT_RING_BIT); }
 
-void show(State state, bool moving) {
-  if (moving) return;
-  const Colour wanted = colour_of(state);
-  if (!(wanted == shown)) {
-    shown = wanted;
-    lights_left = kLights;
-  }
-  // all in one go: a pause of 50 us would let the ring take over what it has got
-  while (lights_left > 0) {
-    send_light(shown);
-    --lights_left;
+void show(State state) {
+  if (shown_for_ms < kRefreshMs) ++shown_for_ms;
+  if (state == shown && shown_for_ms < kRefreshMs) return;
+  shown = state;
+  shown_for_ms = 0;
+  const Colour colour = colour_of(state);
+  for (uint8_t light = 0; light < kLights; ++light) {
+    send_undisturbed(colour.green);
+    send_undisturbed(colour.red);
+    send_undisturbed(colour.blue);
   }
 }
 

@@ -1,5 +1,4 @@
-// The ring of 12 WS2812 lights: blue with the drives off, green with them on, red with a fault,
-// white without a configuration.
+// The ring of 12 WS2812 lights: every state of the board has its colour; see README.md.
 #pragma once
 #include "../core/protocol.hpp"
 
@@ -8,10 +7,12 @@ namespace light_ring {
 
 void start();
 
-// Shows the state. One light takes 30 us, during which no interrupt is served: a tick would come
-// late, so nothing is sent while anything moves, and no colour tells moving from resting. At rest
-// a late tick moves nothing, and none is lost.
-void show(protocol::State state, bool moving);
+// Once a millisecond while no axis steps: shows the state, and again now and then, in case that an
+// interrupt has come between two bytes and the ring has taken the pause for the end.
+//
+// One byte takes 10 us, during which no interrupt is served; all of it takes half a millisecond. A
+// step would come late by that, so before a motion the board waits until the lights have changed.
+void show(protocol::State state);
 
 }  // namespace light_ring
 }  // namespace plugpilot

@@ -5,6 +5,7 @@
 
 #include "actuators.hpp"
 #include "buzzer.hpp"
+#include "gauges.hpp"
 #include "light_ring.hpp"
 #include "machine.hpp"
 #include "reset_record.hpp"
@@ -21,13 +22,15 @@ namespace {
 
 using protocol::Fault;
 
-constexpr uint8_t kBytesPerRound = 32;  // a flood of bytes must not starve the closed loop
+constexpr uint8_t kBytesPerJob = 32;
 
 void wake_up() {
   int32_t place[kAxes];
   if (store::load_place(place)) board.remember(place);
   Configuration configuration;
-  if (store::load_configuration(configuration)) board.configure(configuration);
+  const store::Kept kept = store::load_configuration(configuration);
+  if (kept == store::Kept::WHOLE) board.configure(configuration);
+  if (kept == store::Kept::DAMAGED) board.miss_kept_configuration();
 }
 
 void introduce() {
@@ -60,13 +63,24 @@ void keep_place() {
 }
 
 void receive() {
-  for (uint8_t left = kBytesPerRound; left > 0 && !uart::received.empty(); --left) {
-    link.receive(uart::received.take());
+  for (uint8_t left = kBytesPerJob; left > 0 && !uart::received.empty(); --left) {
+    if (link.receive(uart::received.take())) return;
   }
 }
 
+// Between two rounds of the closed loop only one of these: a flood of frames must not starve it.
+void do_short_job() {
+  if (!link.tell()) receive();
+  uart::kick();
+  store::step();
+}
+
 void every_millisecond() {
-  actuators::apply(board.every_millisecond(actuators::read()));
+  gauges::every_millisecond();
+  Inputs inputs = actuators::read();
+  gauges::read(inputs);
+  const Outputs outputs = board.every_millisecond(inputs);
+  actuators::apply(outputs);
   if (step_timer::take_late_tick()) link.note_late_tick();
   if (uart::take_overrun()) link.note_overrun();
   link.every_millisecond();
@@ -74,7 +88,7 @@ void every_millisecond() {
   keep_fault();
   keep_place();
   buzzer::every_millisecond(board.fault());
-  light_ring::show(board.state(), board.moving());
+  if (outputs.lights_may_change) light_ring::show(board.state());
 }
 
 // Until the next interrupt, unless one has left work behind.
@@ -93,6 +107,7 @@ void start() {
   actuators::start();
   light_ring::start();
   buzzer::start();
+  gauges::start();
   uart::start();
   wake_up();
   introduce();
@@ -106,15 +121,13 @@ void start() {
 void run() {
   uint8_t beat_done = board.interpolator().clock().beat();
   for (;;) {
-    receive();
     if (board.interpolator().clock().beat() != beat_done) {
       ++beat_done;
       every_millisecond();
       // reached only if the ticks go on and this loop has come round
       wdt_reset();
     }
-    uart::kick();
-    store::step();
+    do_short_job();
     sleep_if_idle(beat_done);
   }
 }

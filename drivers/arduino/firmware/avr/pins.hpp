@@ -47,6 +47,8 @@
 #define MOTOR_FORWARDS PIN_MASK(PL1)   // D48, H2: towards the car
 
 // On the board
+#define THERMISTOR_CHANNEL 0  // A0
+#define SUPPLY_CHANNEL 4      // A4: a third of it
 #define LIGHT_RING_PORT PORTL  // D44, 12 WS2812
 #define LIGHT_RING_DDR DDRL
 #define LIGHT_RING_BIT PL5

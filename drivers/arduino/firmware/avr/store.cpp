@@ -3,17 +3,12 @@
 #include <avr/eeprom.h>
 #include <string.h>
 
+#include "../core/kept_configuration.hpp"
 #include "../core/place_record.hpp"
 
 namespace plugpilot {
 namespace store {
 namespace {
-
-struct __attribute__((packed)) KeptConfiguration {
-  uint32_t protocol_hash;  // of the definition that gives the bytes their meaning
-  Configuration configuration;
-  uint16_t crc;
-};
 
 struct Layout {
   uint16_t boots;
@@ -54,12 +49,14 @@ uint8_t newest_slot = kPlaceRecords - 1;
 
 }  // namespace
 
-bool load_configuration(Configuration& configuration) {
+Kept load_configuration(Configuration& configuration) {
   KeptConfiguration kept;
   eeprom_read_block(&kept, &eeprom.kept, sizeof kept);
   configuration = kept.configuration;
-  return kept.protocol_hash == protocol::PROTOCOL_HASH && kept.crc == configuration.crc() &&
-         configuration.is_sound();
+  if (kept.is_of_this_protocol() && kept.is_whole()) return Kept::WHOLE;
+  // the CRC tells a configuration of another version from a damaged one
+  const bool another = !kept.is_of_this_protocol() && kept.crc == kept.configuration.crc();
+  return another || kept.is_blank() ? Kept::NOTHING : Kept::DAMAGED;
 }
 
 protocol::Fault load_fault() {
@@ -90,7 +87,7 @@ uint16_t count_boot() {
 }
 
 void save_configuration(const Configuration& configuration) {
-  const KeptConfiguration kept = {protocol::PROTOCOL_HASH, configuration, configuration.crc()};
+  const KeptConfiguration kept = KeptConfiguration::of(configuration);
   configuration_job.begin(&eeprom.kept, &kept);
 }
 

@@ -7,8 +7,14 @@
 namespace plugpilot {
 namespace store {
 
-// False if there is none for this protocol, or it is damaged.
-bool load_configuration(Configuration& configuration);
+enum class Kept : uint8_t {
+  NOTHING,  // for this protocol
+  DAMAGED,
+  WHOLE,
+};
+
+// Only what is whole may be used.
+Kept load_configuration(Configuration& configuration);
 protocol::Fault load_fault();
 
 // False if none is whole.

@@ -11,6 +11,7 @@ using protocol::State;
 constexpr uint8_t kStopCircuitDebounceMs = 2;  // a spark of the contactor is shorter
 constexpr uint8_t kQuietMs = 10;               // without an encoder count: the slide stands
 constexpr uint16_t kLongestSettlingMs = 500;   // a slide that hums about its place has to do, too
+constexpr uint8_t kLightsMs = 2;               // in the first of them the lights change
 
 bool releases_drives(Fault fault) {
   return fault == Fault::EMERGENCY_STOP || fault == Fault::HEARTBEAT_LOST ||
@@ -34,8 +35,17 @@ void Board::brake() {
   begin_settling();
 }
 
+// From READY. The lights cannot change while an axis steps, so they get time to do it before.
+void Board::begin_motion() {
+  interpolator_.hold();
+  start_in_ms_ = kLightsMs;
+  state_ = State::RUN;
+  moving_ = true;
+}
+
 void Board::begin_settling() {
   settling_ = true;
+  start_in_ms_ = 0;
   settling_ms_ = quiet_ms_ = 0;
   moving_ = true;
 }
@@ -74,13 +84,17 @@ void Board::look_for_faults(const Inputs& inputs) {
   look_at_host();
   look_at_switches(inputs.tripped);
   look_at_slide();
+  look_at_arrival();
 }
 
+// The button has cut the power of the motors, so nobody knows where the carriages went.
 void Board::look_at_stop_circuit(bool open) {
   if (!open) {
     stop_circuit_open_ms_ = 0;
   } else if (stop_circuit_open_ms_ < kStopCircuitDebounceMs) {
-    if (++stop_circuit_open_ms_ == kStopCircuitDebounceMs) latch(Fault::EMERGENCY_STOP, 0);
+    if (++stop_circuit_open_ms_ != kStopCircuitDebounceMs) return;
+    latch(Fault::EMERGENCY_STOP, 0);
+    homed_ = false;
   }
 }
 
@@ -109,9 +123,16 @@ void Board::look_at_slide() {
   }
 }
 
+void Board::look_at_arrival() {
+  arrived_ = arrival_.update(interpolator_.running(), encoder_.counts(), slide_error(),
+                             config_.rho3);
+  const bool awaited = state_ == State::RUN || state_ == State::HOMING;
+  if (awaited && arrived_ == Arrival::Answer::MISSED) latch(Fault::FOLLOWING_ERROR, bit(kSlide));
+}
+
 void Board::step_homing() {
   if (state_ != State::HOMING) return;
-  switch (homing_.step(pressed_, slide_settled())) {
+  switch (homing_.step(pressed_, arrived_ == Arrival::Answer::ARRIVED)) {
     case Homing::Result::DONE:
       homed_ = true;
       state_ = State::READY;
@@ -127,30 +148,29 @@ void Board::step_homing() {
 
 int32_t Board::slide_error() const { return whole_part(now_.slide_position) - encoder_.counts(); }
 
-bool Board::slide_settled() const {
-  const int32_t error = slide_error();
-  return error <= config_.rho3.settled && -error <= config_.rho3.settled;
-}
-
 void Board::take_over_slide() {
   interpolator_.settle(encoder_.counts());
   now_.slide_position = interpolator_.end().position[kSlide];
   slide_.reset();
 }
 
-void Board::come_to_rest() {
+// A stop under way: how far it is.
+void Board::settle() {
   const bool running = interpolator_.running();
+  quiet_ms_ = running || encoder_.counts() != last_counts_ ? 0 : quiet_ms_ + 1;
+  if (!running) ++settling_ms_;
+  if (quiet_ms_ < kQuietMs && settling_ms_ < kLongestSettlingMs) return;
+  settling_ = false;
+  take_over_slide();
+  if (release_when_stopped_) drives_on_ = false;
+  release_when_stopped_ = false;
+  if (state_ == State::STOPPING) state_ = drives_on_ ? State::READY : State::IDLE;
+}
+
+void Board::come_to_rest() {
   if (settling_) {
-    quiet_ms_ = running || encoder_.counts() != last_counts_ ? 0 : quiet_ms_ + 1;
-    if (!running) ++settling_ms_;
-    if (quiet_ms_ >= kQuietMs || settling_ms_ >= kLongestSettlingMs) {
-      settling_ = false;
-      take_over_slide();
-      if (release_when_stopped_) drives_on_ = false;
-      release_when_stopped_ = false;
-      if (state_ == State::STOPPING) state_ = drives_on_ ? State::READY : State::IDLE;
-    }
-  } else if (state_ == State::RUN && !running && slide_settled()) {
+    settle();
+  } else if (state_ == State::RUN && arrived_ == Arrival::Answer::ARRIVED) {
     state_ = State::READY;
   }
   last_counts_ = encoder_.counts();
@@ -178,6 +198,9 @@ Outputs Board::every_millisecond(const Inputs& inputs) {
   pressed_ = inputs.switch_levels ^ outputs.released_levels;
   const bool backwards = config_.axis[kSlide].flags & protocol::ENCODER_REVERSED;
   encoder_.sample(backwards ? -inputs.encoder_raw : inputs.encoder_raw);
+  supply_mv_ = inputs.supply_mv;
+  temperature_dc_ = inputs.temperature_dc;
+  if (start_in_ms_ != 0 && --start_in_ms_ == 0) interpolator_.release();
 
   now_ = interpolator_.set_point();
 
@@ -189,6 +212,7 @@ Outputs Board::every_millisecond(const Inputs& inputs) {
   outputs.drives_on = drives_on_;
   outputs.pwm = slide_.pwm();
   outputs.watched = homed_ ? bit(kAxes) - 1 : 0;
+  outputs.lights_may_change = interpolator_.held() || !interpolator_.running();
   return outputs;
 }
 
@@ -205,19 +229,23 @@ bool Board::take_event(protocol::Event& event) {
   return true;
 }
 
+uint16_t Board::flags() const {
+  return flag(drives_on_, protocol::ENABLED) | flag(homed_, protocol::HOMED) |
+         flag(pressed_ & bit(0), protocol::SWITCH_RHO1) |
+         flag(pressed_ & bit(1), protocol::SWITCH_RHO2) |
+         flag(pressed_ & bit(2), protocol::SWITCH_RHO3) |
+         flag(stop_circuit_open_ms_ > 0, protocol::ESTOP_OPEN) | flag(moving_, protocol::MOVING) |
+         flag(slide_.force_limited(), protocol::FORCE_LIMITED) |
+         flag(kept_damaged_, protocol::KEPT_DAMAGED);
+}
+
 void Board::report(protocol::Telemetry& telemetry) const {
   const SetPoint now = interpolator_.set_point();  // newer than this millisecond's
   telemetry.tick = now.tick;
   telemetry.state = state_;
   telemetry.fault = fault_;
   telemetry.fault_detail = fault_axes_;
-  telemetry.flags =
-      flag(drives_on_, protocol::ENABLED) | flag(homed_, protocol::HOMED) |
-      flag(pressed_ & bit(0), protocol::SWITCH_RHO1) |
-      flag(pressed_ & bit(1), protocol::SWITCH_RHO2) |
-      flag(pressed_ & bit(2), protocol::SWITCH_RHO3) |
-      flag(stop_circuit_open_ms_ > 0, protocol::ESTOP_OPEN) | flag(moving_, protocol::MOVING) |
-      flag(slide_.force_limited(), protocol::FORCE_LIMITED);
+  telemetry.flags = flags();
   telemetry.commanded[0] = now.rail_position[0];
   telemetry.commanded[1] = now.rail_position[1];
   telemetry.commanded[kSlide] = whole_part(now.slide_position);
@@ -235,6 +263,8 @@ void Board::report(protocol::Telemetry& telemetry) const {
   telemetry.next_segment = next_segment_;
   telemetry.segment = now.in_host_segment ? now.segment_number : next_segment_;
   telemetry.segment_tick = now.in_host_segment ? now.segment_tick : 0;
+  telemetry.supply_mv = supply_mv_;
+  telemetry.temperature_dc = temperature_dc_;
 }
 
 }  // namespace plugpilot

@@ -1,5 +1,6 @@
 // The motion board: its states, its refusals and its faults. Knows neither pins nor frames.
 #pragma once
+#include "arrival.hpp"
 #include "configuration.hpp"
 #include "encoder.hpp"
 #include "homing.hpp"
@@ -14,6 +15,8 @@ struct Inputs {
   uint8_t tripped;         // bits of the axes whose switches ended the steps since the last time
   bool stop_circuit_open;  // emergency stop
   int32_t encoder_raw;
+  uint16_t supply_mv;      // as in the telemetry
+  int16_t temperature_dc;
 };
 
 // What the hardware shall do until the next millisecond.
@@ -23,6 +26,7 @@ struct Outputs {
   uint8_t watched;          // bits of the axes whose switches end the steps at once
   uint8_t released_levels;  // levels of those switches while they are not pressed
   uint8_t reversed;         // bits of the axes whose direction level is the other one
+  bool lights_may_change;   // that delays ticks; before a motion there is always time for it
 };
 
 class Board {
@@ -55,6 +59,9 @@ class Board {
   void remember(const int32_t (&position)[kAxes]);
   void start_with_fault(protocol::Fault fault) { latch(fault, 0); }
 
+  // The configuration that was kept cannot be used.
+  void miss_kept_configuration() { kept_damaged_ = true; }
+
   // --- time ---
 
   Outputs every_millisecond(const Inputs& inputs);
@@ -68,6 +75,9 @@ class Board {
   const Configuration& config() const { return config_; }
   bool configured() const { return configured_; }
 
+  // TelemetryFlag, but for the link's own.
+  uint16_t flags() const;
+
   // 0 without a configuration.
   uint16_t config_crc() const { return configured_ ? config_crc_ : 0; }
 
@@ -80,6 +90,7 @@ class Board {
  private:
   protocol::Refusal why_not_ready() const;
   bool in_motion_state() const;
+  void begin_motion();
   void brake();
   void begin_settling();
   void latch(protocol::Fault fault, uint8_t axes);
@@ -88,18 +99,21 @@ class Board {
   void look_at_host();
   void look_at_switches(uint8_t tripped);
   void look_at_slide();
+  void look_at_arrival();
   void step_homing();
+  void settle();
   void come_to_rest();
   void take_over_slide();
   void drive_slide();
   int32_t slide_error() const;
-  bool slide_settled() const;
   void tell(protocol::EventKind kind, uint8_t code, uint8_t axes);
 
   Interpolator interpolator_;
   SetPoint now_ = {};  // of this millisecond
   Encoder encoder_;
   SlideController slide_;
+  Arrival arrival_;
+  Arrival::Answer arrived_ = Arrival::Answer::WAITING;
   Configuration config_ = {};
   uint16_t config_crc_ = 0;
   Homing homing_;
@@ -111,15 +125,19 @@ class Board {
   bool homed_ = false;
   bool place_known_ = false;
   bool moving_ = false;
+  bool kept_damaged_ = false;
   bool settling_ = false;  // a stop is under way: rho3's set point is to be taken over
   bool release_when_stopped_ = false;
   uint8_t pressed_ = 0;
+  uint8_t start_in_ms_ = 0;
   uint8_t stop_circuit_open_ms_ = 0;
   uint8_t quiet_ms_ = 0;
   uint16_t settling_ms_ = 0;
   uint8_t silence_ms_ = 0;
   int32_t last_counts_ = 0;
   uint16_t next_segment_ = 0;
+  uint16_t supply_mv_ = 0;
+  int16_t temperature_dc_ = INT16_MIN;
   protocol::Event events_[2] = {};  // a fault and the end of homing at most
   uint8_t event_count_ = 0;
 };

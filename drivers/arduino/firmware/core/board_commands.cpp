@@ -29,7 +29,8 @@ Refusal Board::why_not_ready() const {
 }
 
 Refusal Board::why_no_configuration() const {
-  return state_ == State::BOOT || state_ == State::IDLE ? Refusal::NONE : Refusal::NOT_AT_REST;
+  // a fault must not keep the host from connecting
+  return drives_on_ || moving_ ? Refusal::NOT_AT_REST : Refusal::NONE;
 }
 
 Refusal Board::configure(const Configuration& config) {
@@ -43,10 +44,8 @@ Refusal Board::configure(const Configuration& config) {
     deceleration[axis] = static_cast<int32_t>(config.axis[axis].stop_deceleration);
   }
   interpolator_.set_deceleration(deceleration);
-  if (!configured_) {
-    configured_ = true;
-    state_ = State::IDLE;
-  }
+  configured_ = true;
+  if (state_ == State::BOOT) state_ = State::IDLE;
   homed_ = false;
   if (!place_known_) {
     int32_t place[kAxes];
@@ -112,8 +111,9 @@ Refusal Board::push(const protocol::Segment& message) {
   if (!homed_) return Refusal::NOT_HOMED;
   if (interpolator_.free_places() == 0) return Refusal::QUEUE_FULL;
   const bool running = interpolator_.running();
+  QueueEnd reached;
   const Refusal refusal =
-      check_segment(message, next_segment_, interpolator_.end(), running, config_);
+      check_segment(message, next_segment_, interpolator_.end(), running, config_, reached);
   if (refusal != Refusal::NONE) return refusal;
   Segment segment = {};
   segment.number = message.number;
@@ -126,10 +126,11 @@ Refusal Board::push(const protocol::Segment& message) {
     segment.acceleration[axis] = message.acceleration[axis];
   }
   if (!running) interpolator_.take_over_phases(phase);
-  if (!interpolator_.push(segment, ends_at_rest(message, config_))) return Refusal::FAULT_LATCHED;
+  if (state_ == State::READY) begin_motion();
+  if (!interpolator_.push(segment, reached, is_rest(reached.rate, config_))) {
+    return Refusal::FAULT_LATCHED;
+  }
   ++next_segment_;
-  state_ = State::RUN;
-  moving_ = true;
   return Refusal::NONE;
 }
 

@@ -7,12 +7,16 @@ namespace {
 
 using protocol::Refusal;
 
+constexpr uint8_t kSlideAxis = protocol::AXES - 1;
 constexpr uint8_t kRho3Arrived = 1 << protocol::AXES;
 constexpr uint8_t kHomingArrived = kRho3Arrived << 1;
 constexpr uint8_t kAllArrived = (kHomingArrived << 1) - 1;
 
 // Positions stay far from the ends of 32 bits, so that sums of a few never overflow.
 constexpr int32_t kFurthestUnits = INT32_C(1) << 28;
+
+// The closed loop of rho3 computes in 2^-8 counts.
+constexpr int32_t kFurthestCounts = INT32_C(1) << 21;
 
 bool is_rate(uint32_t value) { return value > 0 && value <= INT32_MAX; }
 bool is_place(int32_t units) { return units >= -kFurthestUnits && units <= kFurthestUnits; }
@@ -26,6 +30,16 @@ bool is_sound_axis(const protocol::ConfigAxis& axis) {
          is_rate(axis.seek_rate) && is_rate(axis.locate_rate) && is_rate(axis.homing_acceleration);
 }
 
+bool is_near(int32_t counts) { return counts >= -kFurthestCounts && counts <= kFurthestCounts; }
+
+bool is_sound_slide(const protocol::ConfigAxis& axis, const protocol::ConfigRho3& slide) {
+  return is_near(axis.travel_min) && is_near(axis.travel_max) && is_near(axis.switch_position) &&
+         axis.back_off <= static_cast<uint32_t>(kFurthestCounts) &&
+         axis.beyond_travel <= static_cast<uint32_t>(kFurthestCounts) &&
+         slide.pwm_per_newton_q8 > 0 && slide.stall_ms > 0 && slide.near >= slide.settled &&
+         slide.force_limit_dn > 0 && slide.force_limit_dn <= slide.force_max_dn;
+}
+
 }  // namespace
 
 uint16_t Configuration::crc() const { return crc16(this, sizeof *this); }
@@ -35,8 +49,8 @@ bool Configuration::is_sound() const {
     if (axis[i].axis != i || !is_sound_axis(axis[i])) return false;
     if (!is_place(homing.rest_position[i])) return false;
   }
-  return is_place(homing.carriage_sum) && rho3.pwm_per_newton_q8 > 0 && rho3.stall_ms > 0 &&
-         rho3.force_limit_dn > 0 && rho3.force_limit_dn <= rho3.force_max_dn;
+  return is_place(homing.carriage_sum) && is_near(homing.rest_position[kSlideAxis]) &&
+         is_sound_slide(axis[kSlideAxis], rho3);
 }
 
 Refusal ConfigurationDraft::put(const protocol::ConfigAxis& message) {

@@ -1,7 +1,5 @@
 #include "homing.hpp"
 
-#include "trapezoid.hpp"
-
 namespace plugpilot {
 namespace {
 
@@ -22,9 +20,13 @@ void Homing::begin() {
   start(Phase::SEEK);
 }
 
-Homing::Result Homing::step(uint8_t pressed_axes, bool slide_settled) {
+Homing::Result Homing::step(uint8_t pressed_axes, bool slide_arrived) {
+  if (plan_.pending()) {
+    plan_.push_next(interpolator_);
+    return Result::RUNNING;
+  }
   const bool pressed = pressed_axes & (1 << axis_);
-  const bool at_rest = !interpolator_.running() && slide_settled;
+  const bool at_rest = !interpolator_.running() && slide_arrived;
   switch (phase_) {
     case Phase::SEEK:
       return found_or_failed(at_rest, pressed, Phase::SEEK_BRAKE);
@@ -106,11 +108,15 @@ bool Homing::start(Phase phase) {
   }
 }
 
+bool Homing::move(const Trapezoid& motion) {
+  return plan_.begin(motion, interpolator_.free_places());
+}
+
 bool Homing::seek(uint32_t rate, uint32_t units, int8_t direction) {
   Trapezoid motion = {{0, 0, 0}, rate, config_.axis[axis_].homing_acceleration};
   motion.way[axis_] = direction * static_cast<int32_t>(units);
   if (axis_ != kSlide) motion.way[1 - axis_] = -motion.way[axis_];
-  return follow(interpolator_, motion);
+  return move(motion);
 }
 
 // Along the rail no further than necessary, but with room for wrong stored positions.
@@ -128,15 +134,14 @@ bool Homing::rails_to_rest() {
 bool Homing::slide_to_rest() {
   const protocol::ConfigAxis& slide = config_.axis[kSlide];
   const int32_t way = config_.homing.rest_position[kSlide] - position(kSlide);
-  return follow(interpolator_, {{0, 0, way}, slide.seek_rate, slide.homing_acceleration});
+  return move({{0, 0, way}, slide.seek_rate, slide.homing_acceleration});
 }
 
 bool Homing::move_rails(int32_t rho1, int32_t rho2) {
   const protocol::ConfigAxis* rail = config_.axis;
-  return follow(interpolator_,
-                {{rho1 - position(0), rho2 - position(1), 0},
-                 smaller(rail[0].seek_rate, rail[1].seek_rate),
-                 smaller(rail[0].homing_acceleration, rail[1].homing_acceleration)});
+  return move({{rho1 - position(0), rho2 - position(1), 0},
+               smaller(rail[0].seek_rate, rail[1].seek_rate),
+               smaller(rail[0].homing_acceleration, rail[1].homing_acceleration)});
 }
 
 // The switch sees the axis itself, so its place is where the axis was when it closed.

@@ -9,6 +9,7 @@
 #include "configuration.hpp"
 #include "encoder.hpp"
 #include "interpolator.hpp"
+#include "trapezoid.hpp"
 
 namespace plugpilot {
 
@@ -23,8 +24,9 @@ class Homing {
 
   // One millisecond.
   //
-  // Args: bits of the axes whose switches are pressed; whether the slide is where its set point is.
-  Result step(uint8_t pressed, bool slide_settled);
+  // Args: bits of the axes whose switches are pressed; whether the slide has arrived at its set
+  // point.
+  Result step(uint8_t pressed, bool slide_arrived);
 
   // The axis whose switch was sought last, for the words about a failure.
   uint8_t axis() const { return axis_; }
@@ -48,6 +50,7 @@ class Homing {
   Result after_locating();
   Result found_or_failed(bool at_rest, bool pressed, Phase brake);
   bool start(Phase phase);
+  bool move(const Trapezoid& motion);
   bool seek(uint32_t rate, uint32_t units, int8_t direction);
   bool choose_height();
   bool rails_to_rest();
@@ -59,6 +62,7 @@ class Homing {
   Interpolator& interpolator_;
   Encoder& encoder_;
   const Configuration& config_;
+  TrapezoidPlan plan_;
   Phase phase_ = Phase::SEEK;
   uint8_t axis_ = kSlide;
   int32_t found_at_ = 0;  // where the switch closed

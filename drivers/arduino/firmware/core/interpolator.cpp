@@ -24,6 +24,7 @@ void Interpolator::rest() {
   tail_ = head_;
   rests_behind_queue_ = true;
   ran_empty_ = false;
+  held_ = false;
 }
 
 void Interpolator::end_segment() {
@@ -51,7 +52,7 @@ void Interpolator::take_next() {
 
 bool Interpolator::running() const {
   CriticalSection lock;
-  return ticks_left_ != 0;
+  return ticks_left_ != 0 || head_ != tail_;
 }
 
 void Interpolator::halt() {
@@ -67,21 +68,18 @@ void Interpolator::take_over_phases(const uint32_t (&phase)[kAxes]) {
   for (uint8_t axis = 0; axis < kRails; ++axis) rails_[axis].phase = phase[axis];
 }
 
-bool Interpolator::push(const Segment& segment, bool ends_at_rest) {
+bool Interpolator::push(const Segment& segment, const QueueEnd& reached, bool ends_at_rest) {
   Segment& place = queue_[head_ % kQueueCapacity];
   place = segment;
   place.slide_start = end_.position[kSlide];
-  QueueEnd end = end_;
-  end.append(place);
   Segment& coast = behind_queue_ == &coast_[0] ? coast_[1] : coast_[0];
   coast = place;
   coast.from_host = false;
   coast.ticks = kCoastTicks;
-  coast.slide_start = end.position[kSlide];
+  coast.slide_start = reached.position[kSlide];
   for (uint8_t axis = 0; axis < kAxes; ++axis) {
-    coast.rate[axis] = end.rate[axis];
+    coast.rate[axis] = reached.rate[axis];
     coast.acceleration[axis] = 0;
-    if (ends_at_rest) end.rate[axis] = 0;
   }
   {
     CriticalSection lock;
@@ -91,7 +89,8 @@ bool Interpolator::push(const Segment& segment, bool ends_at_rest) {
     head_ = head_ + 1;
     if (ticks_left_ == 0 && !held_) begin(&place);
   }
-  end_ = end;
+  end_ = reached;
+  for (uint8_t axis = 0; ends_at_rest && axis < kAxes; ++axis) end_.rate[axis] = 0;
   return true;
 }
 
@@ -120,7 +119,8 @@ void Interpolator::release() {
 void Interpolator::brake_from(const int32_t* slide_counts) {
   Segment coast = {};
   if (!hold_rates(coast)) {
-    if (slide_counts != nullptr) end_.position[kSlide] = centred(*slide_counts);
+    end_.position[kSlide] = slide_counts != nullptr ? centred(*slide_counts) : resting_slide();
+    halt();  // what waits in the queue is dropped, too
     return;
   }
   if (slide_counts != nullptr) {
@@ -197,13 +197,19 @@ void Interpolator::renumber(const int32_t (&position)[kAxes]) {
   }
 }
 
+// While nothing is followed: where the slide's set point stands.
+int64_t Interpolator::resting_slide() const {
+  return head_ == tail_ ? end_.position[kSlide] : queue_[tail_ % kQueueCapacity].slide_start;
+}
+
 SetPoint Interpolator::set_point() const {
   SetPoint now = {};
   const Segment* segment;
   uint16_t ticks_done = 0;
+  TickClock time;
   {
     CriticalSection lock;
-    now.tick = clock_.ticks();
+    time = clock_;
     now.queue_used = used();
     segment = current_;
     for (uint8_t axis = 0; axis < kRails; ++axis) now.rail_position[axis] = rails_[axis].position;
@@ -212,15 +218,19 @@ SetPoint Interpolator::set_point() const {
       for (uint8_t axis = 0; axis < kRails; ++axis) now.rate[axis] = rails_[axis].rate;
     }
   }
+  now.tick = time.ticks();
   if (segment == nullptr) {
-    now.slide_position = end_.position[kSlide];
+    now.slide_position = resting_slide();
+    if (now.queue_used == 0) return now;
+    const Segment& first = queue_[tail_ % kQueueCapacity];  // held: none of its ticks is done
+    now.in_host_segment = first.from_host;
+    now.segment_number = first.number;
     return now;
   }
   const int32_t rate = segment->rate[kSlide];
   const int32_t acceleration = segment->acceleration[kSlide];
   now.slide_position = position_after(segment->slide_start, rate, acceleration, ticks_done);
   now.rate[kSlide] = static_cast<int32_t>(rate_after(rate, acceleration, ticks_done));
-  now.moving = true;
   now.in_host_segment = segment->from_host;
   now.segment_number = segment->number;
   now.segment_tick = ticks_done;

@@ -25,7 +25,6 @@ struct SetPoint {
   int32_t rail_position[kRails];
   int64_t slide_position;
   int32_t rate[kAxes];
-  bool moving;
   bool in_host_segment;
   uint8_t queue_used;       // the one that is being followed included
   uint16_t segment_number;  // of the host's segment that is being followed
@@ -72,6 +71,7 @@ class Interpolator {
   const TickClock& clock() const { return clock_; }
   SwitchWatch& switches() { return switches_; }
 
+  // Something moves, or waits in the queue until release().
   bool running() const;
 
   // Steps end at once, as a switch ends them.
@@ -80,9 +80,10 @@ class Interpolator {
   uint8_t used() const { return static_cast<uint8_t>(head_ - tail_); }
   uint8_t free_places() const { return static_cast<uint8_t>(kQueueCapacity - used()); }
 
-  // Between these two, segments are pushed without being begun.
+  // Between these two, segments are pushed without being begun. A stop releases, too.
   void hold() { held_ = true; }
   void release();
+  bool held() const { return held_; }
 
   // Where and how fast the next segment must begin.
   const QueueEnd& end() const { return end_; }
@@ -94,9 +95,9 @@ class Interpolator {
   // a free place and its rates stay within 32 bits. False if the queue has just run empty in
   // motion: the axes are about to brake.
   //
-  // ends_at_rest: nothing needs to follow. Otherwise the axes go on at their last rates if nothing
-  // does, and ran_empty() becomes true.
-  bool push(const Segment& segment, bool ends_at_rest);
+  // reached: end() with the segment appended. ends_at_rest: nothing needs to follow. Otherwise the
+  // axes go on at their last rates if nothing does, and ran_empty() becomes true.
+  bool push(const Segment& segment, const QueueEnd& reached, bool ends_at_rest);
 
   // The queue ran empty while something still moved; it goes on unbraked. Call brake().
   bool ran_empty() const { return ran_empty_; }
@@ -129,6 +130,7 @@ class Interpolator {
   void brake_from(const int32_t* slide_counts);
   uint16_t braking_ticks(const Segment& coast) const;
   bool hold_rates(Segment& coast);
+  int64_t resting_slide() const;
   void finish_brake(const Segment& coast, uint16_t ticks);
 
   TickClock clock_;
@@ -139,7 +141,7 @@ class Interpolator {
   volatile uint8_t tail_ = 0;
   volatile bool ran_empty_ = false;
   bool rests_behind_queue_ = true;
-  bool held_ = false;
+  volatile bool held_ = false;
   const Segment* current_ = nullptr;
   const Segment* behind_queue_ = nullptr;  // followed when the queue runs empty in motion
   Segment queue_[kQueueCapacity] = {};

@@ -21,28 +21,26 @@ constexpr uint8_t kFromBoard = 0x80;  // in the type of everything that only a b
 
 }  // namespace
 
-void Link::receive(uint8_t byte) {
+bool Link::receive(uint8_t byte) {
   const uint16_t dropped = decoder_.dropped();
   const uint8_t size = decoder_.feed(byte);
   if (decoder_.dropped() != dropped) ++damaged_;
-  if (size == 0) return;
+  if (size == 0) return false;
   Frame frame;
   if (!parse_frame(decoder_.bytes(), size, frame) || frame.type & kFromBoard) {
     ++damaged_;
-    return;
+    return true;
   }
   board_.hear_host();
   handle(frame);
+  return true;
 }
 
 void Link::handle(const Frame& frame) {
   switch (static_cast<MessageType>(frame.type)) {
-    case MessageType::HELLO_REQUEST: {
-      const uint16_t session = read<protocol::HelloRequest>(frame).session;
-      if (session != 0 && session != session_) begin_session(session);
-      send_hello();
+    case MessageType::HELLO_REQUEST:
+      answer_hello(read<protocol::HelloRequest>(frame));
       break;
-    }
     case MessageType::HEARTBEAT:
       break;
     case MessageType::CLOCK:
@@ -128,6 +126,16 @@ bool Link::take_save_request() {
   return requested;
 }
 
+// A host that speaks another version learns who this is, and nothing else happens: its messages
+// would mean something else here. It may still stop the robot.
+void Link::answer_hello(const protocol::HelloRequest& request) {
+  const bool understood = request.protocol_hash == protocol::PROTOCOL_HASH;
+  if (understood && request.session != 0 && request.session != session_) {
+    begin_session(request.session);
+  }
+  send_hello(understood ? session_ : request.session);
+}
+
 void Link::begin_session(uint16_t session) {
   session_ = session;
   expected_ = events_ = refused_seq_ = stop_token_ = 0;
@@ -145,19 +153,34 @@ void Link::refuse(uint8_t seq, Refusal refusal) {
 }
 
 void Link::every_millisecond() {
+  if (quiet_ms_ < UINT16_MAX) ++quiet_ms_;
+  due_ = session_ == 0 ? quiet_ms_ >= protocol::HELLO_PERIOD_MS : is_telemetry_due();
+}
+
+bool Link::tell() {
   protocol::Event event;
-  while (board_.take_event(event)) send_event(event);
-  ++quiet_ms_;
+  if (board_.take_event(event)) {
+    send_event(event);
+    return true;
+  }
+  if (!due_) return false;
+  due_ = false;
+  quiet_ms_ = 0;
   if (session_ == 0) {
-    if (quiet_ms_ < protocol::HELLO_PERIOD_MS) return;
-    send_hello();
+    send_hello(session_);
   } else {
-    const uint8_t period =
-        board_.moving() ? protocol::TELEMETRY_MOVING_MS : protocol::TELEMETRY_REST_MS;
-    if (quiet_ms_ < period) return;
     send_telemetry();
   }
-  quiet_ms_ = 0;
+  return true;
+}
+
+bool Link::is_telemetry_due() const {
+  if (quiet_ms_ < protocol::TELEMETRY_CHANGE_MS) return false;
+  if (quiet_ms_ >= (board_.moving() ? protocol::TELEMETRY_MOVING_MS : protocol::TELEMETRY_REST_MS))
+    return true;
+  // in motion the force comes and goes with every count
+  const uint16_t changed = (board_.flags() ^ told_flags_) & ~protocol::FORCE_LIMITED;
+  return changed != 0 || board_.state() != told_state_ || board_.fault() != told_fault_;
 }
 
 // Without room in the buffer the frame is lost; everything in it is told again or missed.
@@ -166,9 +189,9 @@ void Link::send(MessageType type, const void* payload, uint8_t seq) {
                          static_cast<const uint8_t*>(payload)});
 }
 
-void Link::send_hello() {
+void Link::send_hello(uint16_t session) {
   const protocol::Hello hello = {protocol::PROTOCOL_HASH,
-                                 session_,
+                                 session,
                                  protocol::BoardKind::ME_AURIGA,
                                  kFirmwareMajor,
                                  kFirmwareMinor,
@@ -202,6 +225,9 @@ void Link::send_event(protocol::Event& event) {
 void Link::send_telemetry() {
   protocol::Telemetry telemetry = {};
   board_.report(telemetry);
+  told_state_ = telemetry.state;
+  told_fault_ = telemetry.fault;
+  told_flags_ = telemetry.flags;
   telemetry.flags |= noted_;
   telemetry.bad_frames = damaged_;
   telemetry.events = events_;

@@ -18,8 +18,12 @@ class Link {
 
   void introduce(const BoardIdentity& identity) { identity_ = identity; }
 
-  void receive(uint8_t byte);
+  // True if the byte has completed a frame, whatever has come of it.
+  bool receive(uint8_t byte);
   void every_millisecond();
+
+  // Sends one of the frames that are due, if any; true if it has.
+  bool tell();
 
   // Told once with the next telemetry.
   void note_late_tick() { noted_ |= protocol::LATE_TICK; }
@@ -33,10 +37,12 @@ class Link {
   void handle_sequenced(const Frame& frame);
   protocol::Refusal obey(const Frame& frame);
   protocol::Refusal commit(const protocol::ConfigCommit& message);
+  void answer_hello(const protocol::HelloRequest& request);
   void begin_session(uint16_t session);
+  bool is_telemetry_due() const;
   void refuse(uint8_t seq, protocol::Refusal refusal);
   void send(protocol::MessageType type, const void* payload, uint8_t seq = 0);
-  void send_hello();
+  void send_hello(uint16_t session);
   void send_clock(const protocol::Clock& request);
   void send_ack();
   void send_event(protocol::Event& event);
@@ -57,6 +63,10 @@ class Link {
   uint16_t noted_ = 0;
   bool save_requested_ = false;
   uint16_t quiet_ms_ = protocol::HELLO_PERIOD_MS;  // since the last telemetry, or HELLO
+  bool due_ = false;
+  protocol::State told_state_ = protocol::State::BOOT;
+  protocol::Fault told_fault_ = protocol::Fault::NONE;
+  uint16_t told_flags_ = 0;
 };
 
 }  // namespace plugpilot

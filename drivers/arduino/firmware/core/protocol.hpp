@@ -9,7 +9,7 @@
 namespace plugpilot {
 namespace protocol {
 
-constexpr uint32_t PROTOCOL_HASH = 0xCCA96899UL;
+constexpr uint32_t PROTOCOL_HASH = 0x13345A36UL;
 constexpr uint32_t BAUD = 500000UL;  // Bits per second, 8N1
 constexpr uint16_t TICK_HZ = 20000;  // Ticks per second; a stepper makes at most one step per tick
 constexpr uint8_t PHASE_BITS = 31;  // Binary digits of a position behind the point
@@ -25,11 +25,15 @@ constexpr uint8_t HEARTBEAT_PERIOD_MS = 50;  // The host sends one this often
 constexpr uint8_t HEARTBEAT_TIMEOUT_MS = 200;  // Silence after which the board stops by itself
 constexpr uint8_t TELEMETRY_MOVING_MS = 10;  // Period of the telemetry while anything moves
 constexpr uint8_t TELEMETRY_REST_MS = 100;  // Period of the telemetry at rest
+constexpr uint8_t TELEMETRY_CHANGE_MS = 2;  // A change is told at once, but not sooner after the last telemetry
+constexpr uint8_t ARRIVED_MS = 10;  // rho3 has arrived when it stood so long within config_rho3.settled
+constexpr uint16_t ARRIVAL_STANDSTILL_MS = 500;  // Standing so long elsewhere it will not arrive any more
+constexpr uint16_t ARRIVAL_TIMEOUT_MS = 3000;  // Nor will it so long after its set point has come to rest
 constexpr uint16_t HELLO_PERIOD_MS = 500;  // A board without a session says HELLO this often
 constexpr uint8_t RATE_BITS_DROPPED = 16;  // Telemetry rates are rates shifted right by this
 constexpr uint8_t HEADER_BYTES = 4;  // length, type, seq, ack
 constexpr uint8_t CRC_BYTES = 2;
-constexpr uint8_t MAX_PAYLOAD_BYTES = 52;
+constexpr uint8_t MAX_PAYLOAD_BYTES = 53;
 
 // What the board does.
 enum class State : uint8_t {
@@ -118,6 +122,7 @@ enum TelemetryFlag : uint16_t {
   FORCE_LIMITED = 1U << 7,
   LATE_TICK = 1U << 8,
   RX_OVERRUN = 1U << 9,
+  KEPT_DAMAGED = 1U << 10,
 };
 
 // Bits of config_axis.flags.
@@ -152,7 +157,7 @@ enum class MessageType : uint8_t {
 
 // Begin a session: sequence numbers start at 0. The same session again changes nothing.
 struct __attribute__((packed)) HelloRequest {
-  uint32_t protocol_hash;  // Of the host; information for the board
+  uint32_t protocol_hash;  // Of the host; with another than its own the board begins no session
   uint16_t session;  // Chosen by the host, not 0
 };
 static_assert(sizeof(HelloRequest) == 6, "HelloRequest has another size on the wire");
@@ -180,7 +185,7 @@ struct __attribute__((packed)) EmergencyStop {
 };
 static_assert(sizeof(EmergencyStop) == 2, "EmergencyStop has another size on the wire");
 
-// Configuration of one axis; in BOOT and IDLE only. In force from CONFIG_COMMIT.
+// Configuration of one axis; with the drives off. In force from CONFIG_COMMIT.
 struct __attribute__((packed)) ConfigAxis {
   uint8_t axis;  // 0, 1, 2 for rho1, rho2, rho3
   uint8_t flags;  // AxisFlag
@@ -213,8 +218,9 @@ struct __attribute__((packed)) ConfigRho3 {
   uint16_t stall_ms;  // PWM at its cap without a count: stalled [ms]
   uint16_t following_error;  // Larger is a fault [counts]
   uint16_t settled;  // Nearer has arrived [counts]
+  uint16_t near;  // Nearer will do if it stands still; at least settled [counts]
 };
-static_assert(sizeof(ConfigRho3) == 22, "ConfigRho3 has another size on the wire");
+static_assert(sizeof(ConfigRho3) == 24, "ConfigRho3 has another size on the wire");
 
 // Homing: rho3, then rho1 and rho2 at constant height, then the rest position.
 struct __attribute__((packed)) ConfigHoming {
@@ -327,8 +333,10 @@ struct __attribute__((packed)) Telemetry {
   uint8_t refused_seq;  // As in ACK
   Refusal refusal;  // As in ACK
   uint8_t stop_token;  // As in ACK
+  uint16_t supply_mv;  // Supply of the board; 0 before it was measured [mV]
+  int16_t temperature_dc;  // On the board; -32768 before it was measured [0.1 degC]
 };
-static_assert(sizeof(Telemetry) == 49, "Telemetry has another size on the wire");
+static_assert(sizeof(Telemetry) == 53, "Telemetry has another size on the wire");
 
 constexpr uint8_t UNKNOWN_TYPE = 0xFF;
 
@@ -341,7 +349,7 @@ inline uint8_t payload_bytes(uint8_t type) {
     case MessageType::STOP: return 2;
     case MessageType::EMERGENCY_STOP: return 2;
     case MessageType::CONFIG_AXIS: return 50;
-    case MessageType::CONFIG_RHO3: return 22;
+    case MessageType::CONFIG_RHO3: return 24;
     case MessageType::CONFIG_HOMING: return 16;
     case MessageType::CONFIG_COMMIT: return 3;
     case MessageType::ENABLE: return 0;
@@ -354,7 +362,7 @@ inline uint8_t payload_bytes(uint8_t type) {
     case MessageType::CLOCK_REPLY: return 6;
     case MessageType::ACK: return 4;
     case MessageType::EVENT: return 8;
-    case MessageType::TELEMETRY: return 49;
+    case MessageType::TELEMETRY: return 53;
   }
   return UNKNOWN_TYPE;
 }

@@ -9,6 +9,8 @@ constexpr int32_t kMostQ8 = kPwmMax * kOneQ8;
 // Larger errors and speeds saturate the PWM anyway; times a gain of 16 bits this stays in 32 bits.
 constexpr int32_t kLargestQ8 = 32767;
 
+constexpr int32_t kLetGoShare = 4;  // of the integral, for each count
+
 int32_t clamped(int32_t value, int32_t limit) {
   if (value > limit) return limit;
   if (value < -limit) return -limit;
@@ -36,10 +38,11 @@ void SlideController::configure(const protocol::ConfigRho3& numbers) {
 }
 
 void SlideController::reset() {
-  integral_q16_ = force_q8_ = 0;
+  integral_q16_ = force_q8_ = last_rate_ = 0;
   stuck_ms_ = 0;
   pwm_ = 0;
-  limited_ = false;
+  limited_ = holding_ = false;
+  stood_ms_ = 0;
 }
 
 void SlideController::limit_force(uint16_t force_dn) {
@@ -51,6 +54,35 @@ int32_t SlideController::wanted_q8(int32_t error_q8, int32_t speed_error_q8) con
   return clamped(scaled(numbers_.kp_q8, error_q8) + scaled(numbers_.kd_q8, speed_error_q8) +
                      (integral_q16_ >> 8),
                  kMostQ8);
+}
+
+// At rest and near enough: dry friction and the screw hold the slide without further efforts. Where
+// it has arrived it may be a little further away before it is moved again, or it would creep about
+// its place for ever. If it moves all the same, the integral pushes too much.
+bool SlideController::leaves_alone(int32_t error_q8, int32_t rate, bool moved) {
+  const auto is_within = [error_q8](uint16_t counts) {
+    return clamped(error_q8, static_cast<int32_t>(counts) << 8) == error_q8;
+  };
+  const bool within = rate == 0 && is_within(numbers_.settled);
+  if (!within || moved) {
+    stood_ms_ = 0;
+  } else if (stood_ms_ < protocol::ARRIVED_MS) {
+    ++stood_ms_;
+  }
+  holding_ = rate == 0 && is_within(numbers_.near) &&
+             (holding_ || stood_ms_ == protocol::ARRIVED_MS);
+  if (holding_ && moved) integral_q16_ -= integral_q16_ / kLetGoShare;
+  return within || holding_;
+}
+
+// What the slide pushes against hinders one direction only, because the screw locks itself. So what
+// the integral has learnt is wrong for the other: when the set point turns round, and when the
+// slide at rest has gone past its place. Otherwise it would swing about that place for ever.
+void SlideController::forget_other_direction(int32_t error_q8, int32_t rate) {
+  const int32_t wanted = rate != 0 ? sign(rate) : sign(error_q8);
+  const bool turned = rate == 0 || sign(rate) != sign(last_rate_);
+  if (turned && wanted * sign(integral_q16_) < 0) integral_q16_ = 0;
+  last_rate_ = rate;
 }
 
 // Not while the cap holds the output and the error pulls further: the integral would wind up.
@@ -74,12 +106,13 @@ int16_t SlideController::update(int64_t set_point, int32_t rate, const Encoder& 
   const int32_t measured_q8 = (encoder.counts() * kOneQ8) + kOneQ8 / 2;
   const int32_t error_q8 = whole_part_q8(set_point) - measured_q8;
   const int32_t moved_q8 = encoder.speed_q8();
+  const bool arrived = leaves_alone(error_q8, rate, encoder.counts() != last_counts_);
+  if (!arrived) forget_other_direction(error_q8, rate);
   const int32_t wanted = wanted_q8(error_q8, speed_q8(rate) - moved_q8);
-  integrate(error_q8, wanted);
+  if (!arrived) integrate(error_q8, wanted);
   force_q8_ = clamped(wanted, cap_q8_);
 
   // friction works against the wanted motion, or at rest against what the error asks for
-  const bool arrived = clamped(error_q8, static_cast<int32_t>(numbers_.settled) << 8) == error_q8;
   const int32_t direction = rate != 0 ? sign(rate) : arrived ? 0 : sign(error_q8);
   const int32_t total_q8 = force_q8_ + direction * numbers_.friction_pwm * kOneQ8 +
                            scaled(numbers_.back_emf_q8, moved_q8);
@@ -93,7 +126,7 @@ int16_t SlideController::update(int64_t set_point, int32_t rate, const Encoder& 
 
 int16_t SlideController::force_dn() const {
   if (numbers_.pwm_per_newton_q8 == 0) return 0;
-  return static_cast<int16_t>(force_q8_ * 10 / numbers_.pwm_per_newton_q8);
+  return static_cast<int16_t>(clamped(force_q8_ * 10 / numbers_.pwm_per_newton_q8, INT16_MAX));
 }
 
 }  // namespace plugpilot

@@ -37,6 +37,8 @@ class SlideController {
 
  private:
   int32_t wanted_q8(int32_t error_q8, int32_t speed_error_q8) const;
+  bool leaves_alone(int32_t error_q8, int32_t rate, bool moved);
+  void forget_other_direction(int32_t error_q8, int32_t rate);
   void integrate(int32_t error_q8, int32_t wanted_q8);
   void watch_for_stall(int32_t counts);
 
@@ -45,9 +47,12 @@ class SlideController {
   int32_t integral_q16_ = 0;  // PWM
   int32_t force_q8_ = 0;      // PWM that makes force
   int32_t last_counts_ = 0;
+  int32_t last_rate_ = 0;
   uint16_t stuck_ms_ = 0;
   int16_t pwm_ = 0;
   bool limited_ = false;
+  bool holding_ = false;  // it had arrived
+  uint8_t stood_ms_ = 0;
 };
 
 }  // namespace plugpilot

@@ -19,15 +19,16 @@ class TickClock {
     }
   }
 
-  // Ticks since the start; only with the step interrupt locked out.
+  // Ticks since the start; only of a copy that was taken with the step interrupt locked out, since
+  // multiplying takes too long for that.
   uint32_t ticks() const { return milliseconds_ * kTicksPerMillisecond + ticks_; }
 
   // The low byte of the milliseconds, which can be read at any time.
-  uint8_t beat() const { return beat_; }
+  uint8_t beat() const { return static_cast<const volatile uint8_t&>(beat_); }
 
  private:
   uint8_t ticks_ = 0;
-  volatile uint8_t beat_ = 0;
+  uint8_t beat_ = 0;
   uint32_t milliseconds_ = 0;
 };
 

@@ -14,9 +14,12 @@ uint32_t furthest(const int32_t (&way)[kAxes]) {
   return longest;
 }
 
+// From the highest bit that the root can have: trying a bit multiplies, which is slow here.
 uint32_t square_root(uint64_t value) {
+  uint32_t bit = 1;
+  for (uint64_t rest = value; rest > 3; rest >>= 2) bit <<= 1;
   uint32_t root = 0;
-  for (uint32_t bit = UINT32_C(1) << 31; bit != 0; bit >>= 1) {
+  for (; bit != 0; bit >>= 1) {
     const uint32_t candidate = root | bit;
     if (static_cast<uint64_t>(candidate) * candidate <= value) root = candidate;
   }
@@ -28,26 +31,12 @@ uint8_t pieces(uint32_t ticks) {
   return count < UINT8_MAX ? static_cast<uint8_t>(count) : UINT8_MAX;
 }
 
-// One phase of the motion: `ticks` with an acceleration, from the rates where the queue ends.
-void push_phase(Interpolator& interpolator, uint32_t ticks, const int32_t (&acceleration)[kAxes],
-                bool last) {
-  while (ticks > 0) {
-    Segment segment = {};
-    segment.ticks = static_cast<uint16_t>(ticks < kLongestPiece ? ticks : kLongestPiece);
-    ticks -= segment.ticks;
-    for (uint8_t axis = 0; axis < kAxes; ++axis) {
-      segment.rate[axis] = interpolator.end().rate[axis];
-      segment.acceleration[axis] = acceleration[axis];
-    }
-    interpolator.push(segment, last && ticks == 0);
-  }
-}
-
 }  // namespace
 
 // With r ticks up at acceleration a, c ticks at rate a r and r ticks down, P moves by
 // a r (r + c) exactly.
-bool follow(Interpolator& interpolator, const Trapezoid& motion) {
+bool TrapezoidPlan::begin(const Trapezoid& motion, uint8_t free_places) {
+  phase_ = kPhases;
   const uint64_t way = static_cast<uint64_t>(furthest(motion.way)) * kOneUnit;
   if (way == 0) return true;
   uint32_t ramp = motion.rate / motion.acceleration + 1;
@@ -56,23 +45,41 @@ bool follow(Interpolator& interpolator, const Trapezoid& motion) {
   uint32_t ramp_and_cruise = static_cast<uint32_t>(ramp_and_cruise64);
   if (ramp_and_cruise < ramp) ramp = ramp_and_cruise = square_root(way / motion.acceleration) + 1;
   const uint32_t cruise = ramp_and_cruise - ramp;
-  if (pieces(ramp) * 2 + pieces(cruise) > interpolator.free_places()) return false;
+  if (pieces(ramp) * 2 + pieces(cruise) > free_places) return false;
 
-  int32_t up[kAxes];
-  int32_t down[kAxes];
-  const int32_t none[kAxes] = {};
   const int64_t divisor = static_cast<int64_t>(ramp) * ramp_and_cruise;
   for (uint8_t axis = 0; axis < kAxes; ++axis) {
-    up[axis] = static_cast<int32_t>(motion.way[axis] * kOneUnit / divisor);
-    down[axis] = -up[axis];
+    acceleration_[axis] =
+        motion.way[axis] == 0 ? 0 : static_cast<int32_t>(motion.way[axis] * kOneUnit / divisor);
   }
-  // a short ramp would be over before the cruise is worked out
-  interpolator.hold();
-  push_phase(interpolator, ramp, up, false);
-  push_phase(interpolator, cruise, none, false);
-  push_phase(interpolator, ramp, down, true);
-  interpolator.release();
+  ticks_[UP] = ticks_[DOWN] = ramp;
+  ticks_[CRUISE] = cruise;
+  phase_ = UP;
   return true;
+}
+
+void TrapezoidPlan::push_next(Interpolator& interpolator) {
+  // a short ramp would be over before the cruise is there
+  interpolator.hold();
+  uint32_t& left = ticks_[phase_];
+  Segment segment = {};
+  segment.ticks = static_cast<uint16_t>(left < kLongestPiece ? left : kLongestPiece);
+  QueueEnd reached = interpolator.end();
+  for (uint8_t axis = 0; axis < kAxes; ++axis) {
+    segment.rate[axis] = reached.rate[axis];
+    segment.acceleration[axis] = phase_ == UP     ? acceleration_[axis]
+                                 : phase_ == DOWN ? -acceleration_[axis]
+                                                  : 0;
+  }
+  reached.append(segment);
+  left -= segment.ticks;
+  skip_empty_phases();
+  interpolator.push(segment, reached, !pending());
+  if (!pending()) interpolator.release();
+}
+
+void TrapezoidPlan::skip_empty_phases() {
+  while (phase_ < kPhases && ticks_[phase_] == 0) ++phase_;
 }
 
 }  // namespace plugpilot

@@ -5,7 +5,7 @@
 namespace plugpilot {
 
 constexpr uint8_t kFirmwareMajor = 0;
-constexpr uint8_t kFirmwareMinor = 1;
+constexpr uint8_t kFirmwareMinor = 2;
 constexpr uint8_t kFirmwarePatch = 0;
 
 }  // namespace plugpilot

@@ -1,4 +1,8 @@
 // States, refusals and stops of the board, on a test stand.
+#include <cstring>
+
+#include "../core/kept_configuration.hpp"
+#include "../core/thermistor.hpp"
 #include "check.hpp"
 #include "stand.hpp"
 
@@ -158,6 +162,37 @@ TEST(segments_that_do_not_fit_are_refused_and_change_nothing) {
   CHECK_EQUAL(t.board.push(further), Refusal::DISCONTINUOUS);
 }
 
+TEST(the_lights_can_change_before_anything_moves) {
+  Stand s;
+  s.home();
+  s.run(20);
+  CHECK(s.outputs.lights_may_change);
+  const double before = s.place[0];
+  for (int i = 0; i < 3; ++i) s.ramp(2000, 0, 0);
+  CHECK_EQUAL(s.board.state(), State::RUN);
+  s.millisecond();
+  CHECK(s.outputs.lights_may_change);
+  CHECK_EQUAL(s.place[0], before);
+  CHECK_EQUAL(s.report().segment, 0);  // it has begun, though nothing of it is done
+  CHECK_EQUAL(s.report().segment_tick, 0);
+  s.run(10);
+  CHECK(!s.outputs.lights_may_change);
+  CHECK(s.place[0] > before);
+}
+
+TEST(a_stop_before_the_first_step_drops_the_queue) {
+  Stand s;
+  s.home();
+  const protocol::Telemetry before = s.report();
+  for (int i = 0; i < 3; ++i) s.ramp(2000, 0, 1000);
+  s.board.stop(StopCategory::DECELERATE_AND_HOLD);
+  CHECK(s.run_until([&] { return s.in(State::READY); }, 100) >= 0);
+  CHECK_EQUAL(s.report().commanded[0], before.commanded[0]);
+  CHECK_EQUAL(s.report().commanded[2], s.report().measured_rho3);
+  CHECK_EQUAL(s.report().queue_used, 0);
+  CHECK_EQUAL(s.ramp(100, 0, 0), Refusal::NONE);
+}
+
 TEST(at_rest_the_phase_is_taken_over) {
   Stand s;
   s.home();
@@ -232,4 +267,41 @@ TEST(unsound_configurations_are_refused) {
   CHECK(!sound_with([](auto& c) { c.axis[2].travel_min = 6000; }));
   CHECK(!sound_with([](auto& c) { c.rho3.pwm_per_newton_q8 = 0; }));
   CHECK(!sound_with([](auto& c) { c.rho3.force_limit_dn = 2000; }));
+  CHECK(!sound_with([](auto& c) { c.rho3.near = 1; }));
+  CHECK(!sound_with([](auto& c) { c.axis[2].travel_max = 1 << 24; }));  // 2^-8 counts overflow
+}
+
+TEST(a_damaged_configuration_in_the_eeprom_is_noticed) {
+  const KeptConfiguration kept = KeptConfiguration::of(configuration());
+  CHECK(kept.is_of_this_protocol() && kept.is_whole() && !kept.is_blank());
+  for (size_t bit = 0; bit < 8 * sizeof kept; ++bit) {
+    KeptConfiguration damaged = kept;
+    reinterpret_cast<uint8_t*>(&damaged)[bit / 8] ^= 1 << bit % 8;
+    CHECK(!damaged.is_of_this_protocol() || !damaged.is_whole());
+  }
+  KeptConfiguration erased;
+  std::memset(&erased, 0xFF, sizeof erased);
+  CHECK(erased.is_blank() && !erased.is_whole());
+  Stand s(false);
+  s.board.miss_kept_configuration();
+  CHECK(s.report().flags & protocol::KEPT_DAMAGED);
+}
+
+TEST(temperature_and_supply_are_told) {
+  CHECK_EQUAL(temperature_dc(512), 250);
+  for (uint16_t value = 0; value < 1024; ++value) {
+    // B = 3380 K, 10 kOhm at 25 degC
+    const double ohm = 10000.0 * std::fmax(value, 0.1) / (1024 - value);
+    const double truth = 1 / (std::log(ohm / 10000) / 3380 + 1 / 298.15) - 273.15;
+    if (truth > 0 && truth < 60) CHECK(std::fabs(temperature_dc(value) / 10.0 - truth) < 1);
+  }
+  CHECK_EQUAL(supply_mv(1023), 14985);
+  Stand s;
+  CHECK_EQUAL(s.report().supply_mv, 0);
+  CHECK_EQUAL(s.report().temperature_dc, INT16_MIN);
+  s.inputs.supply_mv = 12100;
+  s.inputs.temperature_dc = 312;
+  s.run(1);
+  CHECK_EQUAL(s.report().supply_mv, 12100);
+  CHECK_EQUAL(s.report().temperature_dc, 312);
 }

@@ -66,10 +66,83 @@ TEST(an_open_emergency_stop_circuit_latches_until_it_is_closed) {
   s.run(1);
   latched(s, Fault::EMERGENCY_STOP, false);
   CHECK(s.report().flags & protocol::ESTOP_OPEN);
+  CHECK(!homed(s));  // the button has cut the power of the motors
   CHECK_EQUAL(s.board.clear_fault(), Refusal::CAUSE_PRESENT);
   s.inputs.stop_circuit_open = false;
   s.run(1);
   CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);
+}
+
+TEST(a_fault_does_not_keep_the_host_from_configuring) {
+  Stand s(false);
+  s.inputs.stop_circuit_open = true;  // pressed when the power came
+  s.run(30);
+  CHECK_EQUAL(s.board.state(), State::FAULT);
+  CHECK_EQUAL(s.board.configure(configuration()), Refusal::NONE);
+  CHECK_EQUAL(s.board.state(), State::FAULT);
+  s.inputs.stop_circuit_open = false;
+  s.run(30);
+  CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);
+  CHECK_EQUAL(s.board.state(), State::IDLE);
+}
+
+// The slide sticks this far before its place, and no force limit is reached.
+void stop_short(Stand& s, int32_t counts) {
+  s.home();
+  for (int i = 0; i < 5; ++i) s.ramp(0, 0, 400);
+  s.ramp(0, 0, 0);
+  const int32_t end = whole_part(s.board.interpolator().end().position[kSlide]);
+  s.run_until([&] { return s.report().measured_rho3 >= end - counts; });
+  s.jammed = true;
+}
+
+TEST(a_slide_that_stops_a_little_short_comes_to_rest_there) {
+  Stand s;
+  stop_short(s, 9);
+  const int ms = s.run_until([&] { return !s.in(State::RUN); }, 2000);
+  CHECK(ms >= protocol::ARRIVAL_STANDSTILL_MS);
+  CHECK(ms < protocol::ARRIVAL_STANDSTILL_MS + 200);
+  CHECK_EQUAL(s.board.state(), State::READY);
+  CHECK(s.report().commanded[2] - s.report().measured_rho3 > 2);  // measured, not wished for
+}
+
+TEST(a_slide_that_stops_far_short_is_a_following_error) {
+  Stand s;
+  stop_short(s, 30);
+  CHECK(s.run_until([&] { return !s.in(State::RUN); }, 2000) >= 0);
+  latched(s, Fault::FOLLOWING_ERROR, true);
+  CHECK_EQUAL(s.report().fault_detail, 4);
+}
+
+TEST(a_slide_that_stops_short_ends_homing) {
+  Stand s;
+  s.board.enable();
+  s.board.home();
+  s.run_until([&] { return s.report().commanded[2] == 100 && s.place[2] > 20; });
+  s.jammed = true;
+  CHECK(s.run_until([&] { return !s.in(State::HOMING); }, 5000) >= 0);
+}
+
+TEST(a_slide_that_passes_its_place_has_not_arrived) {
+  Arrival arrival;
+  protocol::ConfigRho3 numbers = {};
+  numbers.settled = 2;
+  numbers.near = 10;
+  for (int32_t error = 40; error >= -40; --error) {
+    CHECK_EQUAL(arrival.update(false, -error, error, numbers), Arrival::Answer::WAITING);
+  }
+  for (int ms = 1; ms < protocol::ARRIVED_MS; ++ms) arrival.update(false, -1, 1, numbers);
+  CHECK_EQUAL(arrival.update(false, -1, 1, numbers), Arrival::Answer::WAITING);
+  CHECK_EQUAL(arrival.update(false, -1, 1, numbers), Arrival::Answer::ARRIVED);
+  CHECK_EQUAL(arrival.update(true, -1, 1, numbers), Arrival::Answer::WAITING);
+  Arrival humming;
+  Arrival::Answer answer = Arrival::Answer::WAITING;
+  int ms = 0;
+  for (; answer == Arrival::Answer::WAITING && ms < 10000; ++ms) {
+    answer = humming.update(false, ms % 2, 20 + ms % 2, numbers);
+  }
+  CHECK_EQUAL(ms, protocol::ARRIVAL_TIMEOUT_MS);
+  CHECK_EQUAL(answer, Arrival::Answer::MISSED);
 }
 
 TEST(a_jammed_slide_stalls_at_its_force_limit) {

@@ -29,6 +29,24 @@ Segment segment(uint16_t ticks, const int32_t (&rate)[kAxes], const int32_t (&ac
   return made;
 }
 
+// Behind the queue, as the board does it.
+bool push(Interpolator& interpolator, const Segment& next, bool ends_at_rest) {
+  QueueEnd reached = interpolator.end();
+  for (uint8_t axis = 0; axis < kAxes; ++axis) reached.rate[axis] = next.rate[axis];
+  reached.append(next);
+  return interpolator.push(next, reached, ends_at_rest);
+}
+
+bool follow(Interpolator& interpolator, const Trapezoid& motion) {
+  TrapezoidPlan plan;
+  if (!plan.begin(motion, interpolator.free_places())) return false;
+  while (plan.pending()) {
+    CHECK_EQUAL(interpolator.tick(0), 0);  // nothing moves before it is whole
+    plan.push_next(interpolator);
+  }
+  return true;
+}
+
 }  // namespace
 
 TEST(pins_count_what_the_closed_form_says_at_every_tick) {
@@ -45,7 +63,7 @@ TEST(pins_count_what_the_closed_form_says_at_every_tick) {
       acceleration[axis] = (any_rate(random) / 2 - rate[axis] / 2) / ticks;
     }
     const QueueEnd start = interpolator.end();
-    CHECK(interpolator.push(segment(ticks, rate, acceleration), true));
+    CHECK(push(interpolator, segment(ticks, rate, acceleration), true));
     int32_t stepped[kRails] = {7, -3};
     for (uint16_t n = 1; n <= ticks; ++n) {
       tick(interpolator, stepped);
@@ -76,7 +94,7 @@ TEST(closed_form_is_the_sum) {
 TEST(a_brake_brings_all_axes_to_rest_together_and_forwards) {
   Interpolator interpolator;
   interpolator.set_deceleration(kDeceleration);
-  interpolator.push(segment(2000, {400000000, -90000000, 30000000}, {0, 0, 0}), false);
+  push(interpolator, segment(2000, {400000000, -90000000, 30000000}, {0, 0, 0}), false);
   int32_t stepped[kRails] = {};
   for (int i = 0; i < 100; ++i) tick(interpolator, stepped);
   const SetPoint before = interpolator.set_point();
@@ -107,11 +125,11 @@ TEST(a_brake_brings_all_axes_to_rest_together_and_forwards) {
 TEST(a_queue_that_runs_empty_in_motion_goes_on_until_braked) {
   Interpolator interpolator;
   interpolator.set_deceleration(kDeceleration);
-  interpolator.push(segment(10, {1 << 30, 0, 0}, {0, 0, 0}), false);
+  push(interpolator, segment(10, {1 << 30, 0, 0}, {0, 0, 0}), false);
   int32_t stepped[kRails] = {};
   for (int i = 0; i < 10; ++i) tick(interpolator, stepped);
   CHECK(interpolator.ran_empty());
-  CHECK(!interpolator.push(segment(10, {1 << 30, 0, 0}, {0, 0, 0}), false));
+  CHECK(!push(interpolator, segment(10, {1 << 30, 0, 0}, {0, 0, 0}), false));
   for (int i = 0; i < 10; ++i) tick(interpolator, stepped);
   CHECK_EQUAL(stepped[0], 10);  // half a step a tick, from the middle of a step
   interpolator.brake();
@@ -124,7 +142,7 @@ TEST(a_queue_that_runs_empty_in_motion_goes_on_until_braked) {
 TEST(a_watched_switch_ends_the_steps_in_its_tick) {
   Interpolator interpolator;
   interpolator.switches().watch(0x82, 0x00);
-  interpolator.push(segment(1000, {INT32_MAX, INT32_MAX, 0}, {0, 0, 0}), false);
+  push(interpolator, segment(1000, {INT32_MAX, INT32_MAX, 0}, {0, 0, 0}), false);
   CHECK_EQUAL(interpolator.tick(0x01), 0x03);  // another bit of the port is none of its business
   CHECK_EQUAL(interpolator.tick(0x80), 0);
   CHECK(!interpolator.running());
@@ -141,7 +159,7 @@ TEST(sixteen_segments_fit_and_are_followed_in_order) {
     CHECK(interpolator.free_places() > 0);
     Segment next = segment(5, {0, 0, 0}, {0, 0, 0});
     next.number = i;
-    interpolator.push(next, true);
+    push(interpolator, next, true);
   }
   CHECK_EQUAL(interpolator.free_places(), 0);
   for (uint16_t i = 0; i < kQueueCapacity * 5; ++i) {

@@ -20,13 +20,21 @@ std::vector<Segment> read_segments() {
   while (std::cin >> segment.ticks) {
     for (int32_t& rate : segment.rate) std::cin >> rate;
     for (int32_t& acceleration : segment.acceleration) std::cin >> acceleration;
+    if (!std::cin) break;
     segments.push_back(segment);
+  }
+  if (!std::cin.eof()) {
+    std::cerr << "segment " << segments.size() << " cannot be read\n";
+    std::exit(1);
   }
   return segments;
 }
 
 void push(Interpolator& interpolator, const Segment& segment) {
-  if (interpolator.push(segment, false)) return;
+  QueueEnd reached = interpolator.end();
+  for (uint8_t axis = 0; axis < kAxes; ++axis) reached.rate[axis] = segment.rate[axis];
+  reached.append(segment);
+  if (interpolator.push(segment, reached, false)) return;
   std::cerr << "the queue ran empty in motion\n";
   std::exit(1);
 }

@@ -39,7 +39,8 @@ inline Configuration configuration() {
     axis.back_off = 300;
     axis.beyond_travel = 2000;
   }
-  c.rho3 = {1500, 300, 4000, 60, 8, 32640, 500, 900, 1500, 100, 300, 2};
+  // the gains as in drivers/arduino/settings.py, for the motor below
+  c.rho3 = {440, 300, 29000, 150, 6, 32640, 500, 900, 1500, 100, 300, 2, 10};
   c.homing = {8000, {4000, 4000, 100}};
   return c;
 }

@@ -37,7 +37,7 @@ def test_explanations_do_not_change_the_hash(tmp_path: Path) -> None:
         ('name = "pwm", type = "i16"', 'name = "pwm", type = "u16"'),
         ('name = "pwm"', 'name = "duty"'),
         ("type = 0x25", "type = 0x26"),
-        ("MOVING = 6", "MOVING = 10"),
+        ("MOVING = 6", "MOVING = 12"),
     ],
 )
 def test_whatever_matters_on_the_wire_changes_the_hash(tmp_path: Path, old: str, new: str) -> None:
