@@ -14,7 +14,12 @@ from tests.rig.simulator import Simulator
 
 
 class CableEnd:
-    """An open port: a Line without threads."""
+    """An open port: a Line without threads.
+
+    Attributes:
+        is_open: Nobody has closed it, and its device is there.
+        last_write_s: When the host wrote last, in event loop time.
+    """
 
     def __init__(self, simulator: Simulator, on_frames: OnFrames, on_lost: OnLost) -> None:
         self._simulator = simulator
@@ -22,10 +27,12 @@ class CableEnd:
         self._on_lost = on_lost
         self._frames = FrameReader(FROM_BOARD)
         self.is_open = True
+        self.last_write_s = 0.0
 
     def write(self, data: bytes) -> None:
         """Send bytes; into an unplugged cable they vanish."""
         if self.is_open:
+            self.last_write_s = asyncio.get_running_loop().time()
             self._simulator.ask(f"write {data.hex()}")
 
     async def close(self) -> None:

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+import contextlib
+from collections.abc import AsyncIterator, Callable, Sequence
 
 from drivers.arduino.driver import ArduinoRobot
 from drivers.robot import BoardRefusedError, BoardState, RobotState
+from tests.rig.rig import Rig
 from tests.support.eventually import eventually
 from twin.joints import JointPosition
 from twin.motion import MotionLimits
 from twin.motion.discretise import plan_segments
 from twin.motion.point_to_point import plan_joint_move
 from twin.motion.segments import Segment
+
+LIMITS = MotionLimits()
+NEAR = JointPosition(140.0, 160.0, 60.0)
+FAR = JointPosition(190.0, 120.0, 80.0)
 
 MOVING = {BoardState.RUN, BoardState.STOPPING, BoardState.HOMING}
 
@@ -31,7 +37,7 @@ async def at_rest(robot: ArduinoRobot) -> RobotState:
 
 
 async def plan(
-    robot: ArduinoRobot, limits: MotionLimits, target: JointPosition
+    robot: ArduinoRobot, target: JointPosition, limits: MotionLimits = LIMITS
 ) -> Sequence[Segment]:
     """A plan from rest, cut for the board."""
     start = (await at_rest(robot)).commanded.position
@@ -70,6 +76,38 @@ async def release(robot: ArduinoRobot) -> None:
     await eventually(cleared)
 
 
-async def move(robot: ArduinoRobot, limits: MotionLimits, target: JointPosition) -> RobotState:
+async def move(
+    robot: ArduinoRobot, target: JointPosition, limits: MotionLimits = LIMITS
+) -> RobotState:
     """Go there and wait for rest, or stop at a fault."""
-    return await feed(robot, await plan(robot, limits, target))
+    return await feed(robot, await plan(robot, target, limits))
+
+
+async def ready(rig: Rig, robot: ArduinoRobot, at: JointPosition) -> None:
+    """The robot stands somewhere, enabled, homed and without a fault."""
+    state = await at_rest(robot)
+    if state.fault is not None:
+        await release(robot)
+    await robot.enable()
+    if not state.homed:
+        await robot.home()
+    await robot.set_force_limit(90.0)
+    assert (await move(robot, at)).fault is None
+    await rig.control.forget()
+
+
+@contextlib.asynccontextmanager
+async def on_the_way(
+    robot: ArduinoRobot, target: JointPosition, limits: MotionLimits = LIMITS
+) -> AsyncIterator[None]:
+    """Moving there, well after the start; the feeding of segments ends with the block."""
+    feeding = asyncio.create_task(feed(robot, await plan(robot, target, limits)))
+    try:
+        await sample_where(robot, lambda state: state.board is BoardState.RUN)
+        await asyncio.sleep(0.2)  # up to speed
+        yield
+    finally:
+        feeding.cancel()
+        await asyncio.wait([feeding])
+        if not feeding.cancelled():
+            feeding.exception()

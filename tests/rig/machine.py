@@ -15,7 +15,7 @@ EDGES_PER_COUNT = 2
 RESERVE_MM = 2.0
 """The mechanical stops are this far behind the switches and the ends of the travel."""
 
-STANDING = JointPosition(150.0, 140.0, 70.0)
+STANDING = JointPosition(30.0, 260.0, 53.0)
 """Where the robot stands at power-up unless a test says otherwise: away from every switch."""
 
 DEFAULTS = BoardSettings()

@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
 from itertools import pairwise
 
 import pytest
-import pytest_asyncio
 
 from drivers.arduino.driver import ArduinoRobot
 from drivers.robot import BoardState, FaultCode, NotConnectedError, StopCategory
-from tests.rig.build import Programs
-from tests.rig.host import at_rest, feed, move, plan, release, sample_where
-from tests.rig.rig import Rig, running_rig
+from tests.rig.host import (
+    FAR,
+    LIMITS,
+    NEAR,
+    at_rest,
+    move,
+    on_the_way,
+    ready,
+    release,
+    sample_where,
+)
+from tests.rig.rig import Rig
 from tests.rig.truth import TrueState
 from tests.support.eventually import eventually
-from twin.joints import JointPosition
-from twin.motion import MotionLimits
 
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 
-LIMITS = MotionLimits()
-NEAR = JointPosition(140.0, 160.0, 60.0)
-FAR = JointPosition(190.0, 120.0, 80.0)
 
 RAIL_MM = 0.02
 """Homing looks at the switches once a millisecond, at 5 mm/s; and rounding to microsteps."""
@@ -38,46 +39,6 @@ SET_UP_US = 1.0
 
 HEARTBEAT_S = 0.25
 """Longest time from a dead link to the beginning of the stop."""
-
-
-@pytest_asyncio.fixture(scope="module", loop_scope="module")
-async def homed(programs: Programs) -> AsyncIterator[tuple[Rig, ArduinoRobot]]:
-    """A rig whose robot was homed once; every test leaves it whole."""
-    async with running_rig(programs) as rig:
-        robot = rig.robot(LIMITS)
-        await robot.connect()
-        await robot.enable()
-        await robot.home()
-        yield rig, robot
-        await robot.close()
-
-
-async def ready(rig: Rig, robot: ArduinoRobot, at: JointPosition) -> None:
-    """The robot stands somewhere, enabled, homed and without a fault."""
-    state = await at_rest(robot)
-    if state.fault is not None:
-        await release(robot)
-    await robot.enable()
-    if not state.homed:
-        await robot.home()
-    await robot.set_force_limit(90.0)
-    assert (await move(robot, LIMITS, at)).fault is None
-    await rig.control.forget()
-
-
-@asynccontextmanager
-async def on_the_way(robot: ArduinoRobot, target: JointPosition) -> AsyncIterator[None]:
-    """Moving there, well after the start; the feeding of segments ends with the block."""
-    feeding = asyncio.create_task(feed(robot, await plan(robot, LIMITS, target)))
-    try:
-        await sample_where(robot, lambda state: state.board is BoardState.RUN)
-        await asyncio.sleep(0.2)  # up to speed
-        yield
-    finally:
-        feeding.cancel()
-        await asyncio.wait([feeding])
-        if not feeding.cancelled():
-            feeding.exception()
 
 
 async def expect_stand(rig: Rig, robot: ArduinoRobot) -> None:
@@ -100,7 +61,7 @@ async def test_every_step_is_made_cleanly_and_in_time(homed: tuple[Rig, ArduinoR
     rig, robot = homed
     await ready(rig, robot, NEAR)
     before = await rig.control.state()
-    reached = await move(robot, LIMITS, FAR)
+    reached = await move(robot, FAR)
     after = await rig.control.state()
     statistics = await rig.control.statistics()
 
@@ -125,7 +86,7 @@ async def test_a_bad_cable_changes_no_step(homed: tuple[Rig, ArduinoRobot]) -> N
     await ready(rig, robot, NEAR)
     await rig.control.spoil_link(lose=2e-4, flip=2e-4, duplicate=1e-4)
     try:
-        reached = await move(robot, LIMITS, FAR)
+        reached = await move(robot, FAR)
     finally:
         await rig.control.spoil_link()
     assert reached.fault is None

@@ -1,0 +1,1 @@
+"""What takes minutes: `make rig` runs it, plain pytest does not."""
