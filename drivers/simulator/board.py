@@ -42,6 +42,7 @@ class SimulatedBoard:
         self._release_when_stopped = False
         self._moving = False
         self._cut_switches = [False, False, False]
+        self._stop_button = False
         self.state = BoardState.BOOT
         self.fault: BoardFault | None = None
         self.enabled = False
@@ -63,7 +64,8 @@ class SimulatedBoard:
         """
         self.sync(now_s)
         if self.state in {BoardState.BOOT, BoardState.FAULT}:
-            raise BoardRefusedError(f"The drives stay off: {self._why_not_ready()}.")
+            reason, words = self._why_not_ready()
+            raise BoardRefusedError(f"The drives stay off: {words}.", reason)
         self.enabled = True
         if self.state is BoardState.IDLE:
             self.state = BoardState.READY
@@ -76,7 +78,8 @@ class SimulatedBoard:
         """
         self.sync(now_s)
         if self.moving:
-            raise BoardRefusedError("The drives stay on while the robot moves; stop it first.")
+            words = "The drives stay on while the robot moves; stop it first."
+            raise BoardRefusedError(words, "moving")
         self.enabled = False
         if self.state is BoardState.READY:
             self.state = BoardState.IDLE
@@ -92,9 +95,11 @@ class SimulatedBoard:
         if not segments:
             return
         if self.state not in {BoardState.READY, BoardState.RUN}:
-            raise BoardRefusedError(f"No motion is possible: {self._why_not_ready()}.")
+            reason, words = self._why_not_ready()
+            raise BoardRefusedError(f"No motion is possible: {words}.", reason)
         if not self.homed:
-            raise BoardRefusedError("No motion is possible before homing: positions are unknown.")
+            words = "No motion is possible before homing: positions are unknown."
+            raise BoardRefusedError(words, "not_homed")
         free = self.queue_free(now_s)
         if len(segments) > free:
             raise QueueFullError(f"{len(segments)} segments were pushed into {free} free places.")
@@ -114,7 +119,8 @@ class SimulatedBoard:
         if not 0 < force_n <= largest_n:
             raise BoardRefusedError(
                 f"A force limit of {force_n:g} N is not possible; it must be above 0 and at most "
-                f"{largest_n:g} N."
+                f"{largest_n:g} N.",
+                "bad_value",
             )
         self.sync(now_s)
         self.world.set_force_limit(force_n, now_s)
@@ -139,16 +145,20 @@ class SimulatedBoard:
     def clear_fault(self, now_s: float) -> None:
         """Release the latched fault.
 
+        A pressed limit switch does not hinder it: the way out is homing, which leaves the switch.
+
         Raises:
-            BoardRefusedError: the robot still moves, or a limit switch is still pressed.
+            BoardRefusedError: the robot still moves, or the emergency-stop button is still pressed.
         """
         self.sync(now_s)
         if self.fault is None:
             return
         if self.moving:
-            raise BoardRefusedError("The fault stays latched until the robot stands still.")
-        if self.fault.code is FaultCode.LIMIT_SWITCH and any(self._cut_switches):
-            raise BoardRefusedError("The fault stays latched: a limit switch is still open.")
+            words = "The fault stays latched until the robot stands still."
+            raise BoardRefusedError(words, "moving")
+        if self._stop_button:
+            words = "The fault stays latched: the emergency-stop circuit is open."
+            raise BoardRefusedError(words, "cause_present")
         self.fault = None
         self.state = BoardState.READY if self.enabled else BoardState.IDLE
 
@@ -160,7 +170,8 @@ class SimulatedBoard:
         """
         self.sync(now_s)
         if self.state is not BoardState.READY:
-            raise BoardRefusedError(f"Homing is not possible: {self._why_not_ready()}.")
+            reason, words = self._why_not_ready()
+            raise BoardRefusedError(f"Homing is not possible: {words}.", reason)
         self.homed = False
         self.state = BoardState.HOMING
 
@@ -170,15 +181,25 @@ class SimulatedBoard:
         self.state = BoardState.READY
 
     def link_lost(self, now_s: float) -> None:
-        """No heartbeat came for too long."""
+        """No heartbeat came for too long; that matters while the drives are on."""
         self.sync(now_s)
-        if self.fault is None:
+        if self.fault is None and (self.enabled or self.moving):
             self._release_when_stopped = True
             self.latch(FaultCode.HEARTBEAT_LOST, "The host has fallen silent.", now_s)
 
     def cut_switch(self, joint: int, *, cut: bool) -> None:
         """Open the wire of a limit switch, which reads as pressed, or mend it."""
         self._cut_switches[joint] = cut
+
+    def press_stop_button(self, now_s: float, *, pressed: bool) -> None:
+        """The emergency-stop button: cuts the power of the motors, so that steps may get lost."""
+        self.sync(now_s)
+        self._stop_button = pressed
+        if pressed:
+            self._release_when_stopped = True
+            self.latch(FaultCode.EMERGENCY_STOP, "The emergency-stop circuit is open.", now_s)
+            self.homed = False
+        self.sync(now_s)
 
     # --- what goes on ------------------------------------------------------------------------
 
@@ -307,13 +328,15 @@ class SimulatedBoard:
             self.world.streams.force.normal(0.0, noise_n)
         )
 
-    def _why_not_ready(self) -> str:
+    def _why_not_ready(self) -> tuple[str, str]:
+        """Stable name of the reason, and the words."""
         if self.fault is not None:
-            return f"the fault {self.fault.code.value} is latched; clear it first"
+            words = f"the fault {self.fault.code.value} is latched; clear it first"
+            return "fault_latched", words
         return {
-            BoardState.BOOT: "the board is still starting",
-            BoardState.IDLE: "the drives are off; enable them first",
-            BoardState.HOMING: "the robot is homing",
-            BoardState.STOPPING: "the robot is still stopping",
-            BoardState.RUN: "the robot is moving",
-        }.get(self.state, "the board is not ready")
+            BoardState.BOOT: ("not_configured", "the board is still starting"),
+            BoardState.IDLE: ("drives_off", "the drives are off; enable them first"),
+            BoardState.HOMING: ("homing", "the robot is homing"),
+            BoardState.STOPPING: ("stopping", "the robot is still stopping"),
+            BoardState.RUN: ("moving", "the robot is moving"),
+        }.get(self.state, ("refused", "the board is not ready"))

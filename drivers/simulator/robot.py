@@ -160,6 +160,16 @@ class SimulatedRobot:
         self._world.free_slide(self._now())
         self._wake.set()
 
+    def press_stop_button(self) -> None:
+        """Press the emergency-stop button, which also cuts the power of the motors."""
+        self._board.press_stop_button(self._now(), pressed=True)
+        self._wake.set()
+
+    def release_stop_button(self) -> None:
+        """Turn the emergency-stop button until it springs out."""
+        self._board.press_stop_button(self._now(), pressed=False)
+        self._wake.set()
+
     def trip_limit(self, joint: int = 0) -> None:
         """Cut the wire of a limit switch: 0, 1, 2 for rho1, rho2, rho3."""
         self._board.cut_switch(joint, cut=True)

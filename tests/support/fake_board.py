@@ -72,10 +72,8 @@ class FakeBoard:
         self._config = FakeConfiguration()
         self.queue = FakeQueue()
         self.force_limit_dn = 0
-        self._session = 0
         self._release = False
-        self._tick = self._due = self._hello_due = self._heard_tick = 0
-        self._homing_until = 0
+        self._tick = self._due = self._hello_due = self._heard_tick = self._homing_until = 0
         self._shown: tuple[object, ...] = ()
         self._begin_session(0)
 
@@ -147,7 +145,7 @@ class FakeBoard:
         self.state = State.FAULT
 
     def press_stop_button(self, *, pressed: bool = True) -> None:
-        """The emergency stop, which cuts the power of the motors."""
+        """The emergency stop."""
         self.stop_button = pressed
         if pressed:
             self._latch(Fault.EMERGENCY_STOP, release=True)

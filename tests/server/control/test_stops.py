@@ -230,16 +230,17 @@ def test_a_stop_pressed_while_another_is_being_released_is_not_released_with_it(
 def test_a_fault_whose_cause_is_there_still_is_not_released() -> None:
     async def scenario(cell: RobotCell) -> None:
         task = await moving(cell)
-        cell.garage.robot.trip_limit(1)
-        with pytest.raises(RobotFaultError, match="end of its travel"):
+        cell.garage.robot.press_stop_button()
+        with pytest.raises(EmergencyStoppedError, match="circuit is open"):
             await task
-        assert not cell.moving()
-        with pytest.raises(RobotFaultError, match="still open"):
+        await wait_until(lambda: not cell.moving())
+        with pytest.raises(RobotFaultError, match="circuit is open"):
             await cell.supervisor.reset()
-        assert cell.mode() is RobotMode.FAULT
-        cell.garage.robot.mend_limit(1)
+        assert cell.supervisor.fault is not None
+        cell.garage.robot.release_stop_button()
         await cell.supervisor.reset()
-        assert cell.mode() is RobotMode.NOT_HOMED
+        assert cell.supervisor.fault is None
+        assert not cell.robot.homed, "its motors were without power"
 
     in_cell(scenario)
 
