@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import shutil
 import sys
 import threading
@@ -16,6 +17,10 @@ from tests.rig.truth import TrueState
 from twin.joints import JointPosition
 
 PERIOD_S = 0.2
+
+LOG_PERIOD_S = 1.0
+"""Into a file, and only what is new."""
+
 STILL_MM = 1e-3
 
 HELP = """\
@@ -27,14 +32,19 @@ Lines that do something to the board, with what undoes them:
   encoder dead | encoder alive             its lines stand still
   link cut | link whole                    both data wires
   faults 0.001 0.001 0 0 | faults 0 0 0 0  chances that a byte is lost, wrong, doubled; delay
-  reset button | reset power | hang        the processor"""
+  reset button | reset power | hang        the processor
+  state | statistics                       only read"""
 
 
 def live_line(state: TrueState, joints: JointPosition, *, moving: bool, truth: GroundTruth) -> str:
     """Power and motion, joints, force on the screw, and where the plug is."""
     power = "on " if state.power else "off"
     motion = "moving" if moving else "still "
-    pressed = [name for name, on in zip(JointPosition._fields, state.pressed, strict=True) if on]
+    pressed = [
+        name.removesuffix("_mm")
+        for name, on in zip(JointPosition._fields, state.pressed, strict=True)
+        if on
+    ]
     depth_mm = truth.insertion_depth_mm
     plug = f"{depth_mm:.1f} mm deep" if depth_mm >= 0 else f"{-depth_mm:.0f} mm from the socket"
     return (
@@ -47,7 +57,9 @@ def live_line(state: TrueState, joints: JointPosition, *, moving: bool, truth: G
 
 async def show(board: StandaloneBoard, truth: Callable[[], GroundTruth]) -> None:
     """Write the live line over and over, until the board ends."""
+    terminal = sys.stdout.isatty()
     last: JointPosition | None = None
+    shown = ""
     while board.process.returncode is None:
         state = await board.control.state()
         joints = true_joints(board.machine, state)
@@ -56,15 +68,17 @@ async def show(board: StandaloneBoard, truth: Callable[[], GroundTruth]) -> None
         )
         last = joints
         line = live_line(state, joints, moving=moving, truth=truth())
-        if sys.stdout.isatty():
+        if terminal:
             width = shutil.get_terminal_size().columns - 1
-            sys.stdout.write(f"\r\x1b[K{line[:width]}")
-            sys.stdout.flush()
-        await asyncio.sleep(PERIOD_S)
+            print(f"\r\x1b[K{line[:width]}", end="", flush=True)
+        elif line != shown:
+            print(line, flush=True)
+        shown = line
+        await asyncio.sleep(PERIOD_S if terminal else LOG_PERIOD_S)
 
 
 async def obey(control: Control) -> None:
-    """Do what is typed, a line each; a wrong line is answered with the help."""
+    """Do what is typed and show the answer; a wrong line is answered with the help."""
     lines: asyncio.Queue[str] = asyncio.Queue()
     loop = asyncio.get_running_loop()
     # A thread that may be left waiting for a line: nobody can call it off.
@@ -72,8 +86,7 @@ async def obey(control: Control) -> None:
     while True:
         line = await lines.get()
         try:
-            await control.say(line)
-            print(f"done: {line}")
+            print(json.dumps(await control.say(line)), flush=True)
         except ControlError as error:
             print(f"{error}\n{HELP}")
 

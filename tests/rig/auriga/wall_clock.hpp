@@ -8,8 +8,9 @@ class WallClock : public Clock {
  public:
   WallClock();
 
-  // Wait until the wall clock has come to this cycle. More than 20 ms behind, it lets go of what is
-  // missing: nobody is helped by a burst afterwards.
+  // Wait until the wall clock has come to this cycle, or return at once to make up for what is
+  // missing. More than 100 ms behind, it lets go of that. No board's clock loses time like this: the
+  // host then takes its samples to be older than they are, and feeds it too late.
   void wait_for(uint64_t cycle);
 
   // When that cycle was due: seconds of CLOCK_MONOTONIC, as in Python's time.monotonic().
