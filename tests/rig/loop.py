@@ -37,6 +37,12 @@ class LockStepLoop(VirtualTimeLoop):
         """Live alone again."""
         self._world = None
 
+    def stall(self, duration_s: float) -> None:
+        """Be busy with something else: the world goes on, its news wait."""
+        until_s = self.time() + duration_s
+        while self.time() < until_s:
+            self._skipping.now_s = self._pass_time(self.time(), until_s)
+
     def _pass_time(self, now_s: float, until_s: float | None) -> float:
         if self._world is None:
             return skip_time(now_s, until_s)

@@ -70,6 +70,13 @@ class Rig:
         """Event loop time of a simulated time since the start."""
         return self._began_s + simulated_s
 
+    async def stall_host(self, duration_s: float) -> None:
+        """Let time pass without anybody on the host getting a turn, as if it hung."""
+        loop = asyncio.get_running_loop()
+        assert isinstance(loop, LockStepLoop)
+        loop.stall(duration_s)
+        await asyncio.sleep(0)
+
     def live(self, until_s: float) -> float:
         """Live until then, or until the board says something; returns the time it has become."""
         if until_s - self._began_s > LONGEST_S:

@@ -1,6 +1,7 @@
 """Ten thousand random segments on the real firmware's own assembler, step by step.
 
-The core compiled for the host is compared by tests/drivers/arduino_firmware/test_host.py.
+The same comparison over 100 000 segments runs on the core compiled for this computer, in
+tests/drivers/arduino_firmware.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""Everything that may go wrong, in everything that may be going on."""
