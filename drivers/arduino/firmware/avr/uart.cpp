@@ -8,8 +8,8 @@
 namespace plugpilot {
 namespace uart {
 
-RingBuffer received;
-RingBuffer to_send;
+ReceiveBuffer received;
+SendBuffer to_send;
 
 namespace {
 

@@ -5,8 +5,8 @@
 namespace plugpilot {
 namespace uart {
 
-extern RingBuffer received;
-extern RingBuffer to_send;
+extern ReceiveBuffer received;
+extern SendBuffer to_send;
 
 void start();
 

@@ -22,7 +22,7 @@ bool parse_frame(const uint8_t* bytes, uint8_t size, Frame& frame) {
   return true;
 }
 
-bool send_frame(RingBuffer& buffer, const Frame& frame) {
+bool send_frame(SendBuffer& buffer, const Frame& frame) {
   const uint8_t payload_size = protocol::payload_bytes(frame.type);
   const uint8_t covered = protocol::HEADER_BYTES + payload_size;
   const uint8_t size = covered + protocol::CRC_BYTES;

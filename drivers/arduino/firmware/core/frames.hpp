@@ -20,6 +20,6 @@ struct Frame {
 bool parse_frame(const uint8_t* bytes, uint8_t size, Frame& frame);
 
 // Encodes a frame into a buffer; false, and nothing written, if there is no room.
-bool send_frame(RingBuffer& buffer, const Frame& frame);
+bool send_frame(SendBuffer& buffer, const Frame& frame);
 
 }  // namespace plugpilot

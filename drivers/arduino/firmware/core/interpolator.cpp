@@ -152,7 +152,7 @@ bool Interpolator::hold_rates(Segment& coast) {
   // `left` is a place of the queue or the other coast: nobody writes there before this returns
   const int32_t rate = left->rate[kSlide];
   const int32_t acceleration = left->acceleration[kSlide];
-  held.rate[kSlide] = static_cast<int32_t>(rate_after(rate, acceleration, ticks_done));
+  held.rate[kSlide] = rate_within_range(rate, acceleration, ticks_done);
   held.acceleration[kSlide] = 0;
   held.slide_start = position_after(left->slide_start, rate, acceleration, ticks_done);
   coast = held;
@@ -230,7 +230,7 @@ SetPoint Interpolator::set_point() const {
   const int32_t rate = segment->rate[kSlide];
   const int32_t acceleration = segment->acceleration[kSlide];
   now.slide_position = position_after(segment->slide_start, rate, acceleration, ticks_done);
-  now.rate[kSlide] = static_cast<int32_t>(rate_after(rate, acceleration, ticks_done));
+  now.rate[kSlide] = rate_within_range(rate, acceleration, ticks_done);
   now.in_host_segment = segment->from_host;
   now.segment_number = segment->number;
   now.segment_tick = ticks_done;

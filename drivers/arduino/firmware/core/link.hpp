@@ -14,7 +14,7 @@ struct BoardIdentity {
 
 class Link {
  public:
-  Link(Board& board, RingBuffer& out) : board_(board), out_(out) {}
+  Link(Board& board, SendBuffer& out) : board_(board), out_(out) {}
 
   void introduce(const BoardIdentity& identity) { identity_ = identity; }
 
@@ -49,7 +49,7 @@ class Link {
   void send_telemetry();
 
   Board& board_;
-  RingBuffer& out_;
+  SendBuffer& out_;
   BoardIdentity identity_ = {};
   CobsDecoder<kMaxFrameBytes> decoder_;
   ConfigurationDraft draft_;

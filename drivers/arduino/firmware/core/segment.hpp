@@ -20,18 +20,18 @@ constexpr uint32_t kHalfUnit = static_cast<uint32_t>(kOneUnit / 2);
 // A position in the middle of a unit: from there its whole part rounds to the nearest, not down.
 constexpr int64_t centred(int32_t whole) { return whole * kOneUnit + kHalfUnit; }
 
-// Shifts of 64 bits by anything but whole bytes are slow loops on the AVR, so the upper and lower
-// half are shifted one by one.
-constexpr int32_t shifted_down(int64_t position, uint8_t bits) {
-  return static_cast<int32_t>(static_cast<uint32_t>(position >> 32) << (32 - bits) |
-                              static_cast<uint32_t>(position) >> bits);
-}
+// Shifts by anything but whole bytes are slow loops on the AVR, so the position is doubled first:
+// then the whole units begin at a byte.
+static_assert(kPhaseBits == 31, "the shifts below are by whole bytes");
+constexpr uint64_t doubled(int64_t position) { return static_cast<uint64_t>(position) * 2; }
 
-constexpr int32_t whole_part(int64_t position) { return shifted_down(position, kPhaseBits); }
+constexpr int32_t whole_part(int64_t position) {
+  return static_cast<int32_t>(static_cast<uint32_t>(doubled(position) >> 32));
+}
 
 // [2^-8 units]; wraps beyond 2^23 units.
 constexpr int32_t whole_part_q8(int64_t position) {
-  return shifted_down(position, kPhaseBits - 8);
+  return static_cast<int32_t>(static_cast<uint32_t>(doubled(position) >> 24));
 }
 
 constexpr uint32_t phase_part(int64_t position) {
@@ -50,6 +50,12 @@ inline int64_t position_after(int64_t start, int32_t rate, int32_t acceleration,
 
 inline int64_t rate_after(int32_t rate, int32_t acceleration, uint16_t ticks) {
   return rate + static_cast<int64_t>(acceleration) * static_cast<int32_t>(ticks);
+}
+
+// The same where it is known to stay within 32 bits, and a fifth of the time.
+inline int32_t rate_within_range(int32_t rate, int32_t acceleration, uint16_t ticks) {
+  return static_cast<int32_t>(static_cast<uint32_t>(rate) +
+                              static_cast<uint32_t>(acceleration) * ticks);
 }
 
 // One segment as the interpolator follows it. The rails go on from where they are; the slide,
@@ -73,8 +79,8 @@ struct QueueEnd {
     for (uint8_t axis = 0; axis < kAxes; ++axis) {
       position[axis] = position_after(position[axis], segment.rate[axis],
                                       segment.acceleration[axis], segment.ticks);
-      rate[axis] = static_cast<int32_t>(
-          rate_after(segment.rate[axis], segment.acceleration[axis], segment.ticks));
+      rate[axis] =
+          rate_within_range(segment.rate[axis], segment.acceleration[axis], segment.ticks);
     }
   }
 };

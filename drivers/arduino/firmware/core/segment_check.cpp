@@ -7,6 +7,11 @@ using protocol::Refusal;
 
 int64_t magnitude(int64_t value) { return value < 0 ? -value : value; }
 
+uint32_t magnitude32(int32_t value) {
+  const uint32_t bits = static_cast<uint32_t>(value);
+  return value < 0 ? -bits : bits;
+}
+
 int64_t outside(int32_t position, const protocol::ConfigAxis& axis) {
   if (position < axis.travel_min) return static_cast<int64_t>(axis.travel_min) - position;
   if (position > axis.travel_max) return static_cast<int64_t>(position) - axis.travel_max;
@@ -28,7 +33,7 @@ bool follow_to_end(const protocol::Segment& segment, const Configuration& config
     const int64_t rate = rate_after(segment.rate[axis], segment.acceleration[axis], segment.ticks);
     // the rate is linear in time, so its ends bound it
     const uint32_t fastest = config.axis[axis].max_rate;
-    if (magnitude(segment.rate[axis]) > fastest || magnitude(rate) > fastest) return false;
+    if (magnitude32(segment.rate[axis]) > fastest || magnitude(rate) > fastest) return false;
     const int64_t start = centred(segment.start[axis]) - kHalfUnit + segment.phase[axis];
     reached.rate[axis] = static_cast<int32_t>(rate);
     reached.position[axis] =
@@ -40,8 +45,11 @@ bool follow_to_end(const protocol::Segment& segment, const Configuration& config
 bool goes_too_far(const protocol::Segment& segment, const QueueEnd& reached,
                   const Configuration& config) {
   for (uint8_t axis = 0; axis < kAxes; ++axis) {
-    const int64_t excess = outside(whole_part(reached.position[axis]), config.axis[axis]);
-    if (excess > 0 && excess > outside(segment.start[axis], config.axis[axis])) return true;
+    const protocol::ConfigAxis& limits = config.axis[axis];
+    const int32_t end = whole_part(reached.position[axis]);
+    if (end >= limits.travel_min && end <= limits.travel_max) continue;
+    const int64_t excess = outside(end, limits);
+    if (excess > outside(segment.start[axis], limits)) return true;
   }
   return false;
 }
@@ -66,7 +74,7 @@ Refusal check_segment(const protocol::Segment& segment, uint16_t next_number, co
 
 bool is_rest(const int32_t (&rate)[kAxes], const Configuration& config) {
   for (uint8_t axis = 0; axis < kAxes; ++axis) {
-    if (magnitude(rate[axis]) > config.axis[axis].max_rate_jump) return false;
+    if (magnitude32(rate[axis]) > config.axis[axis].max_rate_jump) return false;
   }
   return true;
 }

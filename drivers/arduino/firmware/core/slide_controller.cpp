@@ -26,7 +26,10 @@ int32_t scaled(uint16_t gain_q8, int32_t value_q8) {
 
 // [2^-31 counts/tick] to [2^-8 counts/ms]
 int32_t speed_q8(int32_t rate) {
-  return (rate >> 8) * (protocol::TICK_HZ / 1000) >> (protocol::PHASE_BITS - 16);
+  // by 2^15 in two steps: doubled, then by whole bytes, which is quick here
+  const int32_t per_ms = (rate >> 8) * (protocol::TICK_HZ / 1000);
+  static_assert(protocol::PHASE_BITS == 31 && protocol::TICK_HZ <= 64000, "fits into 32 bits");
+  return per_ms * 2 >> 16;
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(cobs_drops_what_is_broken_and_goes_on) {
 }
 
 TEST(a_frame_survives_only_whole) {
-  RingBuffer wire;
+  SendBuffer wire;
   const protocol::Clock clock = {0x1234};
   const uint8_t type = static_cast<uint8_t>(protocol::MessageType::CLOCK);
   CHECK(send_frame(wire, {type, 7, 9, reinterpret_cast<const uint8_t*>(&clock)}));
@@ -78,7 +78,7 @@ TEST(a_frame_survives_only_whole) {
 }
 
 TEST(a_frame_without_room_is_not_begun) {
-  RingBuffer wire;
+  SendBuffer wire;
   const protocol::Telemetry telemetry = {};
   const Frame frame = {static_cast<uint8_t>(protocol::MessageType::TELEMETRY), 0, 0,
                        reinterpret_cast<const uint8_t*>(&telemetry)};

@@ -84,7 +84,7 @@ class Host {
   std::vector<Received> received;
 
  private:
-  RingBuffer out_;
+  SendBuffer out_;
   CobsDecoder<kMaxFrameBytes> decoder_;
 
  public:
@@ -92,7 +92,7 @@ class Host {
 
  private:
   void send_bytes(MessageType type, const void* payload, int seq) {
-    RingBuffer wire;
+    SendBuffer wire;
     CHECK(send_frame(wire, {static_cast<uint8_t>(type), static_cast<uint8_t>(seq), 0,
                             static_cast<const uint8_t*>(payload)}));
     while (!wire.empty()) link.receive(wire.take());
