@@ -16,8 +16,8 @@ from drivers.robot import (
 )
 from server.control.errors import (
     ControlError,
+    FaultRemainsError,
     MotionRefusedError,
-    RobotFaultError,
     RobotOfflineError,
 )
 from server.control.finishing import finish
@@ -92,7 +92,7 @@ class Board:
         """Release the latched fault.
 
         Raises:
-            RobotFaultError: its cause is still there.
+            FaultRemainsError: its cause is still there.
             RobotOfflineError: there is no link.
         """
         try:
@@ -100,7 +100,7 @@ class Board:
         except NotConnectedError as error:
             raise RobotOfflineError(f"The link to the motion board is down: {error}") from error
         except RobotDriverError as error:
-            raise RobotFaultError(f"The fault cannot be released: {error}") from error
+            raise FaultRemainsError(f"The motion board keeps its fault. {error}") from error
         await self.until(lambda state: state.board is not BoardState.FAULT)
 
     async def until(self, condition: Callable[[RobotState], bool]) -> None:

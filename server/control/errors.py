@@ -8,6 +8,7 @@ ControlError
 ├── RobotStoppedError            a protective stop is in force
 ├── EmergencyStoppedError        an emergency stop is latched
 ├── RobotFaultError              the motion board latched a fault
+│   └── FaultRemainsError        it cannot be released: its cause is still there
 ├── MotionRefusedError           the board refused the motion
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
 ├── MotionOutOfReachError        joint limit, workspace or singularity
@@ -81,7 +82,18 @@ class RobotFaultError(ControlError):
 
     code = "robot_fault"
     title = "The robot stopped because of a fault"
-    remedy = "Look at the robot for anything that blocks it, then release the fault."
+    remedy = "Look at the robot for what caused it, then release the fault and try again."
+
+
+class FaultRemainsError(RobotFaultError):
+    """A fault cannot be released, because its cause is still there."""
+
+    code = "fault_remains"
+    title = "That cannot be released yet"
+    remedy = (
+        "Remove the cause first: unlock the emergency-stop button, take away what blocks the "
+        "robot, or have the switch mended. Then release it again."
+    )
 
 
 class MotionRefusedError(ControlError):
