@@ -16,7 +16,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format bench campaign rig lock clean setup-dev system-packages \
+.PHONY: help setup run test lint format bench campaign rig board lock clean setup-dev system-packages \
 	check-style check-types check-web test-python test-web
 
 help: ## list the targets
@@ -45,6 +45,9 @@ bench: setup-dev ## run the benchmarks
 
 rig: setup-dev system-packages ## test the real firmware at length: fault by fault, step by step
 	@$(BIN)/pytest --no-header tests/rig tests/rig/campaign $(ARGS)
+
+board: setup system-packages ## a simulated board with the real firmware, for serve --driver arduino
+	@exec $(BIN)/python -m tests.rig $(ARGS)
 
 campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
 	@$(BIN)/plugpilot simulate campaign $(ARGS)
