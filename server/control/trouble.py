@@ -27,9 +27,8 @@ _WORDS = (
     TroubleWords(
         "board_not_found",
         "No motion board at its port",
-        "Check that the board has power, that its USB cable is in at both ends, and that the port "
-        "is the right one and free: plugpilot serve --port /dev/ttyUSB0. It connects again by "
-        "itself.",
+        "Check that the board has power and that its USB cable is in at both ends. If its port has "
+        "another name: plugpilot serve --port /dev/ttyUSB0. It connects again by itself.",
     ),
     TroubleWords(
         "board_silent",
