@@ -14,7 +14,9 @@ import serial
 
 from drivers.arduino.board_finder import AUTO, find_board
 from drivers.arduino.errors import BoardNotFoundError
+from drivers.arduino.firmware_size import FLASH_BYTES, RAM_BYTES, firmware_size
 from drivers.arduino.link.frames import FrameReader
+from drivers.arduino.listener import BoardListener
 from drivers.arduino.protocol.messages import BAUD, MESSAGES
 from server.errors import PlugPilotError
 
@@ -63,7 +65,9 @@ def firmware() -> None:
 def build(output: Path | None) -> None:
     """Build the firmware and print how much of the chip it takes."""
     _require_tools("make", "avr-g++", "avr-size")
-    _make("all", output or SOURCES / "build")
+    folder = output or SOURCES / "build"
+    _make("all", folder)
+    _print_size(folder / "firmware.elf")
 
 
 @firmware.command()
@@ -85,22 +89,34 @@ def flash(port: str) -> None:
 @click.option("--port", default=AUTO, show_default=True, help="Serial port of the board.")
 @click.option("--seconds", type=click.FloatRange(min=0), help="How long.  [until Ctrl+C]")
 def monitor(port: str, seconds: float | None) -> None:
-    """Print what the board says by itself: HELLO twice a second, until a host begins a session.
+    """Print who the board is, then what it sees: state, switches, positions, supply, temperature.
 
-    Nothing is sent, so the board does nothing. Opening the port resets most boards.
+    A new line comes with every change, and every few seconds. The drives stay off. Opening the port
+    resets most boards.
     """
     device = _find(port)
     reader = FrameReader(FROM_BOARD)
+    listener = BoardListener()
     end_s = None if seconds is None else time.monotonic() + seconds
     try:
         with serial.Serial(device, BAUD, timeout=READ_S) as line:
             while end_s is None or time.monotonic() < end_s:
                 for frame in reader.feed(line.read(64)):
-                    click.echo(str(frame.message))
+                    for words in listener.hear(frame.message):
+                        click.echo(words)
+                line.write(listener.take_answer())
     except serial.SerialException as error:
         raise FirmwareError(f"{device} cannot be read: {error}.") from error
     except KeyboardInterrupt:
         return
+
+
+def _print_size(elf: Path) -> None:
+    if not elf.exists():
+        return  # `make` has said what it did instead
+    size = firmware_size(elf)
+    click.echo(f"Flash: {size.flash:6} of {FLASH_BYTES} bytes ({size.flash_share:.1%})")
+    click.echo(f"RAM:   {size.ram:6} of {RAM_BYTES} bytes ({size.ram_share:.1%}) beside the stack")
 
 
 def _find(port: str) -> str:

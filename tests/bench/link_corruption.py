@@ -21,6 +21,7 @@ def main() -> None:
         f" (2^-16 of all blocks: {result.damaged_frames / 65536:.0f})\n"
         f"  passed all checks of a frame: {result.passed_frame}\n"
         f"  would have been obeyed: {result.believed} (wanted: 0)\n"
+        f"  made the next frame unheard: {result.deaf_after} (wanted: 0)\n"
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from drivers.arduino.link.cobs import CobsError, cobs_decode
 from drivers.arduino.link.crc16 import crc16
-from drivers.arduino.link.frames import Frame, decode_block, encode_frame
+from drivers.arduino.link.frames import Frame, FrameReader, decode_block, encode_frame
 from drivers.arduino.link.go_back_n import NUMBERS
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
@@ -27,17 +27,21 @@ class CorruptionResult:
         passed_frame: How many passed all checks of a frame as something else than was sent.
         believed: How many of those a board would have obeyed as another command: outside the
             sequence, or with the expected number and, for a segment, as the queue's continuation.
+        deaf_after: How often the frame that followed a damaged one, behind a delimiter as the host
+            sends it, was not understood.
     """
 
     damaged_frames: int
     passed_crc: int
     passed_frame: int
     believed: int
+    deaf_after: int
 
 
 def corruption_campaign(count: int, rng: random.Random) -> CorruptionResult:
     """Send ``count`` frames damaged by 1 to 4 bit flips, cuts or insertions."""
-    done = passed_crc = passed_frame = believed = 0
+    done = passed_crc = passed_frame = believed = deaf_after = 0
+    reader = FrameReader(FROM_HOST)
     while done < count:
         sent = Frame(rng.randrange(NUMBERS), rng.randrange(NUMBERS), _random_command(rng))
         wire = encode_frame(sent)
@@ -45,6 +49,9 @@ def corruption_campaign(count: int, rng: random.Random) -> CorruptionResult:
         if damaged == wire:
             continue
         done += 1
+        following = Frame(done % NUMBERS, 0, messages.Clock(token=done % 65536))
+        heard = list(reader.feed(damaged + b"\0" + encode_frame(following)))
+        deaf_after += not heard or heard[-1] != following
         for block in damaged.split(b"\0"):
             if block == wire[:-1]:
                 continue  # an inserted delimiter at either end: the frame itself is whole
@@ -53,7 +60,7 @@ def corruption_campaign(count: int, rng: random.Random) -> CorruptionResult:
             if got is not None and got != sent:
                 passed_frame += 1
                 believed += _would_be_obeyed(got, sent)
-    return CorruptionResult(done, passed_crc, passed_frame, believed)
+    return CorruptionResult(done, passed_crc, passed_frame, believed, deaf_after)
 
 
 def _random_command(rng: random.Random) -> Message:

@@ -80,30 +80,32 @@ async def test_the_board_knows_better_and_says_why(robot: ArduinoRobot, cable: B
     cable.change(lambda board: board.queue.place((33988, 33988, 4650)))
     await robot.enable()
     await until(robot, lambda state: state.enabled)
-    with pytest.raises(BoardRefusedError, match="before homing"):
+    with pytest.raises(BoardRefusedError, match="before homing") as caught:
         await robot.push([STILL])
+    assert caught.value.reason == "not_homed"
 
 
 @pytest.mark.parametrize(
-    ("segment", "why"),
+    ("segment", "why", "reason"),
     [
         (Segment(0.02, JointPosition(151, 150, 50), JointVelocity(0, 0, 0),
-                 JointAcceleration(0, 0, 0)), "rho1 jumps"),
+                 JointAcceleration(0, 0, 0)), "rho1 jumps", "discontinuous"),
         (Segment(0.02, JointPosition(150, 150, 50), JointVelocity(0, 9, 0),
-                 JointAcceleration(0, 0, 0)), "velocity of rho2 jumps"),
+                 JointAcceleration(0, 0, 0)), "velocity of rho2 jumps", "rate_jump"),
         (Segment(0.02, JointPosition(150, 150, 50), JointVelocity(0, 0, 0),
-                 JointAcceleration(0, 0, -200)), "rho3 would go to"),
+                 JointAcceleration(0, 0, -200)), "rho3 would go to", "beyond_travel"),
         (Segment(0.02, JointPosition(150, 150, 50), JointVelocity(0, 0, 0),
-                 JointAcceleration(5000, 0, 0)), "would move at"),
+                 JointAcceleration(5000, 0, 0)), "would move at", "too_fast"),
         (Segment(0.5, JointPosition(150, 150, 50), JointVelocity(0, 0, 0),
-                 JointAcceleration(0, 0, 0)), "it lasts"),
+                 JointAcceleration(0, 0, 0)), "it lasts", "bad_ticks"),
     ],
 )  # fmt: skip
 async def test_segments_that_the_board_cannot_follow_do_not_reach_it(
-    homed: ArduinoRobot, cable: BoardCable, segment: Segment, why: str
+    homed: ArduinoRobot, cable: BoardCable, segment: Segment, why: str, reason: str
 ) -> None:
-    with pytest.raises(BoardRefusedError, match=why):
+    with pytest.raises(BoardRefusedError, match=why) as caught:
         await homed.push([segment])
+    assert caught.value.reason == reason
     assert not [m for m in cable.board.heard if isinstance(m, messages.Segment)]
     assert len(await move(homed, JointPosition(150.5, 150, 50))) > 2, "it still works"
 
@@ -145,6 +147,20 @@ async def test_an_emergency_stop_stays_until_it_is_cleared(homed: ArduinoRobot) 
         await homed.enable()
     await homed.clear_fault()
     assert (await until(homed, lambda s: s.fault is None)).board is BoardState.IDLE
+
+
+async def test_the_stop_button_is_to_be_released_first(
+    homed: ArduinoRobot, cable: BoardCable
+) -> None:
+    cable.change(lambda board: board.press_stop_button())
+    state = await until(homed, lambda s: s.fault is not None and not s.homed)
+    assert state.fault is not None
+    assert state.fault.detail == "The emergency-stop circuit is open."
+    with pytest.raises(BoardRefusedError, match="circuit is open") as caught:
+        await homed.clear_fault()
+    assert caught.value.reason == "cause_present"
+    cable.change(lambda board: board.press_stop_button(pressed=False))
+    await homed.clear_fault()
 
 
 async def test_a_queue_that_runs_empty_is_a_fault(homed: ArduinoRobot) -> None:

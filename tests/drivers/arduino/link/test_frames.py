@@ -84,4 +84,5 @@ def test_no_damaged_frame_becomes_another_command() -> None:
     result = corruption_campaign(100_000, random.Random(20_26))
     assert result.damaged_frames == 100_000
     assert result.believed == 0, result
+    assert result.deaf_after == 0, "the link recovers every time"
     assert result.passed_crc < 50
