@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from drivers.arduino.settings import BoardSettings, SlideSettings
+from drivers.arduino.settings import BoardSettings
 from tests.rig.truth import TrueState
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
@@ -21,12 +21,9 @@ STANDING = JointPosition(30.0, 260.0, 53.0)
 DEFAULTS = BoardSettings()
 BRISK = {"seek_speed_mm_s": 70.0, "locate_speed_mm_s": 5.0, "homing_acceleration_mm_s2": 1000.0}
 TUNED = BoardSettings(
-    rho1=DEFAULTS.rho1.model_copy(update=BRISK),
-    rho2=DEFAULTS.rho2.model_copy(update=BRISK),
-    slide=SlideSettings(ki_pwm_per_count_s=20.0, integral_pwm_max=150),
+    rho1=DEFAULTS.rho1.model_copy(update=BRISK), rho2=DEFAULTS.rho2.model_copy(update=BRISK)
 )
-"""Homing in a third of the time; and an integral that can carry the whole force of the insertion,
-without which the slide would stop short of its place and the board would wait for ever."""
+"""The defaults, but homing in a third of the time."""
 
 
 @dataclass(frozen=True, slots=True)

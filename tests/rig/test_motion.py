@@ -89,6 +89,10 @@ async def test_a_bad_cable_changes_no_step(homed: tuple[Rig, ArduinoRobot]) -> N
         reached = await move(robot, FAR)
     finally:
         await rig.control.spoil_link()
+    spoilt = await rig.control.statistics()
+    assert spoilt.lost > 0
+    assert spoilt.flipped > 0
+    assert spoilt.duplicated > 0
     assert reached.fault is None
     assert reached.commanded.position == pytest.approx(FAR, abs=RAIL_MM)
     await expect_stand(rig, robot)

@@ -36,7 +36,7 @@ HALF_RATE = 1 << 30
 """10 000 steps a second."""
 
 WORK_SEGMENTS = 12
-TAKEN_S = 0.05
+TAKEN_S = 0.08
 """In which the board must take them."""
 
 FLOOD_PERIOD_S = 1e-3
