@@ -27,6 +27,9 @@ SPEED_MARGIN = 1.5
 ROUNDING_MM = 0.5
 """... and two samples need not be taken exactly when they say."""
 
+LONGEST_WAY_S = 0.5
+"""Samples come more often; after a gap nobody knows when in it the motors moved."""
+
 
 def without_motors(
     parameters: SimulationParameters, start: JointPosition | None = None
@@ -67,14 +70,15 @@ class FollowedMotors:
     def move(self, position: JointPosition, at_s: float) -> None:
         """Come to a position at a time, in a straight line from the last one.
 
-        Left out when somebody has asked the world about a later time already; the next one makes
-        up for it.
+        After a long gap they are taken to have moved in its last part. Left out when somebody has
+        asked the world about a later time already; the next one makes up for it.
 
         Args:
             position: In the board's coordinates.
             at_s: When they stood there, in the time of the world.
         """
         world = self._world
+        world.advance(at_s - LONGEST_WAY_S)
         start_s, start, _ = world.line.queue_end(world.now_s)
         elapsed_s = at_s - start_s
         if elapsed_s <= 0:

@@ -202,6 +202,17 @@ def test_an_old_sample_and_an_early_question_do_no_harm(template: RobotState) ->
     assert plug_mm(around) == pytest.approx(expected, abs=0.06)
 
 
+def test_a_gap_of_hours_is_not_worked_through(template: RobotState) -> None:
+    around = followed_garage(PERFECT)
+    start = JointPosition(150.0, 150.0, 60.0)
+    around.follower.take(sample(template, start, 10.0, homed=True))
+    around.follower.take(sample(template, AWAY, 20_000.0, homed=True))
+    around.follower.take(sample(template, AWAY, 20_000.1, homed=True))
+    assert plug_mm(around) == pytest.approx(np.array(gamma.forward(GEOMETRY, AWAY)), abs=0.1)
+    states = around.world.view_at(19_999.0), around.world.view_at(20_000.1)
+    assert not np.allclose(states[0].T_camera_label, states[1].T_camera_label, atol=1.0)
+
+
 async def test_the_drivers_of_the_registry_follow_the_board(tmp_path: Path) -> None:
     with board_cable(tmp_path) as cable:
         devices = make_devices(
