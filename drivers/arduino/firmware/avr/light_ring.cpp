@@ -84,6 +84,9 @@ void send_undisturbed(uint8_t byte) {
   const uint8_t high = static_cast<uint8_t>(low | _BV(LIGHT_RING_BIT));
   send_byte(byte, high, low);
   SREG = status;
+  // the processor runs one instruction between two interrupts that wait: without these the next
+  // byte would come before the second of them, and that may be a tick
+  asm volatile("nop \n nop \n nop \n nop \n");
 }
 
 }  // namespace
