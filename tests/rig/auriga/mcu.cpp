@@ -114,6 +114,12 @@ void Mcu::drive(Pin pin, bool level) {
   const uint8_t mask = 1 << pin.bit;
   port.mask |= mask;
   port.levels = level ? port.levels | mask : port.levels & ~mask;
+  show(pin);
+}
+
+void Mcu::show(Pin pin) {
+  const Forced& port = forced_[pin.port - 'A'];
+  const bool level = port.levels & 1 << pin.bit;
   // without this every write to the port lets simavr raise the pulled-up inputs again
   avr_ioport_external_t external = {};
   external.name = pin.port;
@@ -166,6 +172,15 @@ void Mcu::mend_after_reset() {
   flags &= ~(AVR_UART_FLAG_STDIO | AVR_UART_FLAG_POLL_SLEEP);
   avr_ioctl(avr_, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
   for (avr_irq_t* output : outputs_) avr_raise_irq(output, 0);
+  // simavr has forgotten what comes from outside, but would not be told the same level again
+  for (size_t port = 0; port < forced_.size(); ++port) {
+    for (int bit = 0; bit < 8; ++bit) {
+      if (!(forced_[port].mask & 1 << bit)) continue;
+      const Pin pin(static_cast<char>('A' + port), bit);
+      avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ(pin.port), pin.bit)->flags |= IRQ_FLAG_INIT;
+      show(pin);
+    }
+  }
   for (const auto& repeated : repeated_) after(repeated->cycles, repeat, repeated.get());
   for (const auto& action : on_reset_) action();
 }

@@ -88,6 +88,7 @@ class Mcu {
   static avr_cycle_count_t wake_up(avr_t* avr, avr_cycle_count_t when, void* parameter);
   static void changed(avr_irq_t* irq, uint32_t value, void* parameter);
 
+  void show(Pin pin);
   void mend_after_reset();
   void set_reset_flag(avr_regbit_t flag);
   avr_uart_t* find_uart0();

@@ -11,6 +11,7 @@ struct Pin {
   // Args: a port as the list names it, and the pin's mask in it.
   constexpr Pin(PortLetter letter, uint8_t mask)
       : port(letter), bit(__builtin_ctz(mask)) {}
+  constexpr Pin(char port, int bit) : port(port), bit(bit) {}
 };
 
 }  // namespace rig
