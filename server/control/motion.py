@@ -14,8 +14,9 @@ from twin.joints import JointAcceleration
 from twin.motion import JointState, MotionPlan, plan_segments
 from twin.motion.segments import Segment
 
-LOOK_AHEAD = 8
-"""Segments kept in the board: 160 ms rides out a busy computer and still lets a target change."""
+CHANGEABLE_LOOK_AHEAD = 8
+"""Segments kept in the board of a motion whose target may change: 160 ms. Any other motion fills
+the board's queue, which rides out a busier computer."""
 
 IN_TRANSIT_S = 0.01
 """Segments pushed this recently may be missing from the newest telemetry's count."""
@@ -30,14 +31,32 @@ Replan = Callable[[JointState], MotionPlan]
 
 
 class Motion:
-    """A motion that is being executed. Made by the supervisor; ``run`` may be awaited once."""
+    """A motion that is being executed. Made by the supervisor; ``run`` may be awaited once.
+
+    Args:
+        board: Executes it.
+        identity: Of the board.
+        plan: What to do.
+        watch: Sees every sample while it runs.
+        changeable: It may be retargeted on the way.
+    """
 
     def __init__(
-        self, board: Board, identity: RobotIdentity, plan: MotionPlan, watch: Watch | None
+        self,
+        board: Board,
+        identity: RobotIdentity,
+        plan: MotionPlan,
+        watch: Watch | None,
+        *,
+        changeable: bool,
     ) -> None:
         self._board = board
         self._segment_s = identity.segment_s
-        self._look_ahead = min(LOOK_AHEAD, identity.queue_capacity)
+        self._look_ahead = (
+            min(CHANGEABLE_LOOK_AHEAD, identity.queue_capacity)
+            if changeable
+            else identity.queue_capacity
+        )
         self._capacity = identity.queue_capacity
         self._watch = watch
         self._interruption: Exception | None = None

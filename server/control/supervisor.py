@@ -254,7 +254,14 @@ class Supervisor:
         lease.require()
         await self._board.command(lambda: self._driver.set_force_limit(force_n))
 
-    def start_motion(self, lease: Lease, plan: MotionPlan, watch: Watch | None = None) -> Motion:
+    def start_motion(
+        self,
+        lease: Lease,
+        plan: MotionPlan,
+        watch: Watch | None = None,
+        *,
+        changeable: bool = False,
+    ) -> Motion:
         """Check a plan along its whole length and prepare its execution (``run``).
 
         Raises:
@@ -267,7 +274,9 @@ class Supervisor:
         self._check(plan)
         if self._link.identity is None:
             raise RobotOfflineError("The motion board has not identified itself yet.")
-        self._motion = Motion(self._board, self._link.identity, plan, watch)
+        self._motion = Motion(
+            self._board, self._link.identity, plan, watch, changeable=changeable
+        )
         return self._motion
 
     async def run(self, motion: Motion) -> RobotState:
