@@ -51,7 +51,8 @@ async def _approach(job: JobContext) -> None:
     supervisor, settings = job.supervisor, job.settings.insertion
     target = pre_insertion(supervisor.geometry, job.require_socket(), settings)
     start = supervisor.telemetry.require().commanded.position
-    motion = supervisor.start_motion(job.lease, plan_joint_move(supervisor.limits, start, target))
+    plan = plan_joint_move(supervisor.limits, start, target)
+    motion = supervisor.start_motion(job.lease, plan, changeable=True)
     tasks = {
         asyncio.create_task(supervisor.run(motion), name="approach"),
         asyncio.create_task(_correct_on_the_way(job, motion), name="coarse correction"),
