@@ -124,6 +124,6 @@ async def test_another_device_on_the_port_is_no_board() -> None:
     machine = standing_machine()
     with chattering_device() as port:
         robot = ArduinoRobot(str(port), machine.geometry, MotionLimits(), machine.settings)
-        with pytest.raises(BoardSilentError, match="no motion board answers"):
+        with pytest.raises(BoardSilentError, match="not as a motion board does"):
             await robot.connect()
         await robot.close()
