@@ -6,14 +6,14 @@
 namespace rig {
 namespace {
 
-constexpr int kTimer3CompareA = 32;  // interrupt vector of the ATmega2560
+constexpr int kTimer2CompareA = 13;  // interrupt vector of the ATmega2560
 constexpr uint16_t kOcr1al = 0x88;     // the closed loop writes it once a round
 constexpr uint64_t kTickCycles = kCpuHz / plugpilot::protocol::TICK_HZ;
 
 }  // namespace
 
 TickWatch::TickWatch(Mcu& mcu) : mcu_(mcu) {
-  mcu.watch_interrupt(kTimer3CompareA, [this](bool begins) { on_tick(begins); });
+  mcu.watch_interrupt(kTimer2CompareA, [this](bool begins) { on_tick(begins); });
   avr_irq_t* pwm = avr_iomem_getirq(mcu.avr(), kOcr1al, nullptr, AVR_IOMEM_IRQ_ALL);
   avr_irq_register_notify(pwm, on_pwm, this);
   mcu.on_reset([this] { began_ = round_began_ = since_reset_ = 0; });

@@ -19,6 +19,10 @@ volatile bool late;
 // Stepper drivers want 1 to 2 us; working out a tick takes longer, unless nothing moves any more.
 constexpr uint8_t kPulseCycles = 24;
 
+// Timer 2, because of two interrupts that wait the one with the lower number comes first: only the
+// encoders are before it, and the serial port is behind.
+constexpr uint8_t kPrescaler = 8;
+
 constexpr uint8_t kStepBits = (1 << kRails) - 1;
 constexpr uint8_t kDirectionBits = kStepBits << kBackwardsShift;
 constexpr uint8_t kNotShown = 0xFF;
@@ -52,10 +56,10 @@ void start() {
   RHO1_STEP_DDR |= RHO1_STEP;
   RHO2_DIR_DDR |= RHO2_DIR;
   RHO2_STEP_DDR |= RHO2_STEP;
-  TCCR3A = 0;
-  TCCR3B = _BV(WGM32) | _BV(CS30);
-  OCR3A = F_CPU / protocol::TICK_HZ - 1;
-  TIMSK3 = _BV(OCIE3A);
+  TCCR2A = _BV(WGM21);
+  TCCR2B = _BV(CS21);
+  OCR2A = F_CPU / kPrescaler / protocol::TICK_HZ - 1;
+  TIMSK2 = _BV(OCIE2A);
 }
 
 void reverse(uint8_t axes) {
@@ -92,7 +96,7 @@ void end_segment_saving_registers() {
 }
 }
 
-ISR(TIMER3_COMPA_vect) {
+ISR(TIMER2_COMPA_vect) {
   using namespace plugpilot;
   using namespace plugpilot::step_timer;
   const uint8_t steps = due;
@@ -105,5 +109,5 @@ ISR(TIMER3_COMPA_vect) {
   due = next & kStepBits;
   const uint8_t backwards = next & kDirectionBits;
   if (due != 0 && backwards != shown_directions) show_directions(backwards);
-  if (TIFR3 & _BV(OCF3A)) late = true;
+  if (TIFR2 & _BV(OCF2A)) late = true;
 }
