@@ -36,6 +36,10 @@ GROUPS = 20
 LARGEST_LOAD = 0.35
 """Of the processor, by the step interrupt."""
 
+LONGEST_INTERVAL_US = 80.0
+"""Between two ticks, nominally 50: bytes and the encoder have the right of way, and short locks of
+the main loop come on top. A tick is lost only from 100 on."""
+
 HALF_RATE = 1 << 30
 """10 000 steps a second."""
 
@@ -94,13 +98,13 @@ async def flood(rig: Rig, burst: bytes, period_s: float, bursts: int) -> Statist
         f"\n2 x 10 000 steps/s and "
         f"{(after.bytes_to_board - before.bytes_to_board) / (period_s * bursts):.0f} bytes/s: "
         f"step interrupt {after.tick_share:.1%} of the CPU, longest {after.longest_tick_us:.1f} us;"
-        f" awake {after.awake_share:.1%}; "
+        f" longest interval {after.tick_interval_us[1]:.1f} us; awake {after.awake_share:.1%}; "
         f"longest round of the slide's loop {after.longest_round_us / 1000:.2f} ms"
     )
     return after
 
 
-async def test_a_flood_of_bytes_at_full_work_makes_no_tick_late(board: RawBoard) -> None:
+async def test_a_flood_of_bytes_at_full_work_disturbs_no_tick(board: RawBoard) -> None:
     loop, rig = asyncio.get_running_loop(), board.rig
     start = board.newest
     work = full_work(start)
@@ -118,7 +122,7 @@ async def test_a_flood_of_bytes_at_full_work_makes_no_tick_late(board: RawBoard)
     assert all(abs(rail.steps - again.ticks / 2) <= 2 for rail in again.rails), (
         "both were at full work"
     )
-    assert again.late_ticks == 0
+    assert again.tick_interval_us[1] < LONGEST_INTERVAL_US
     assert again.tick_share < LARGEST_LOAD
     assert again.overruns == 0
     assert sample.bad_frames == start.bad_frames
@@ -126,7 +130,7 @@ async def test_a_flood_of_bytes_at_full_work_makes_no_tick_late(board: RawBoard)
 
     # nonsense, faster than anybody could read it: what is lost is lost, but nothing else suffers
     nonsense = await flood(rig, encode_frame(Frame(0, 0, Heartbeat())) * 5, 0.001, bursts=300)
-    assert nonsense.late_ticks == 0
+    assert nonsense.tick_interval_us[1] < LONGEST_INTERVAL_US
     assert nonsense.tick_share < LARGEST_LOAD
     assert board.newest.state == State.RUN
     assert board.newest.fault == Fault.NONE
