@@ -13,6 +13,7 @@ from tests.support.eventually import eventually
 
 WITHIN_S = 60.0
 FAST_MM_S = 20.0
+SLOW_MM_S = 3.0
 SOME_MM = 8.0
 HALF_OUT_MM = 25.0
 
@@ -55,7 +56,10 @@ async def _job(charger: Charger, kind: JobType) -> str:
 
 def _lateral_mm_s(charger: Charger) -> float:
     state = charger.services.supervisor.telemetry.latest
-    return 0.0 if state is None else abs(state.commanded.velocity.rho1_mm_s)
+    if state is None:
+        return 0.0
+    velocity = state.commanded.velocity
+    return max(abs(velocity.rho1_mm_s), abs(velocity.rho2_mm_s))
 
 
 def _in_phase(charger: Charger, phase: JobPhase) -> bool:
@@ -89,7 +93,7 @@ async def homing(charger: Charger) -> Activity:
 async def moving(charger: Charger) -> Activity:
     """A job moves the plug in front of the socket."""
     activity = asyncio.create_task(_job(charger, JobType.PLUG_IN))
-    return await _until(activity, lambda: _lateral_mm_s(charger) > FAST_MM_S)
+    return await _until(activity, lambda: _lateral_mm_s(charger) > SLOW_MM_S)
 
 
 async def inserting(charger: Charger) -> Activity:
