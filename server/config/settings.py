@@ -20,6 +20,7 @@ from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import PlatformPosition, UnreachableError, alpha, check_joint_limits
 from twin.motion.limits import MotionLimits
+from twin.statics import ActuatorLimits, Loads
 
 
 class Settings(BaseSettings):
@@ -41,6 +42,8 @@ class Settings(BaseSettings):
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()
     motion: MotionLimits = MotionLimits()
+    loads: Loads = Loads()
+    actuators: ActuatorLimits = ActuatorLimits()
     camera: CameraSettings = Field(default_factory=CameraSettings)
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
