@@ -18,6 +18,8 @@ from server.config.errors import ConfigurationError
 from server.config.settings import Settings
 from server.control.jog import DEAD_MAN_S, Jog
 from server.control.supervisor import Supervisor
+from server.divergence import DivergenceWatcher
+from server.divergence.report import twin_report
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
@@ -90,15 +92,16 @@ async def running(
         supervisor = Supervisor(
             devices.robot, settings.geometry, settings.motion, StoredPlug(database), calendar
         )
+        eye = Eye(
+            devices.camera,
+            settings.camera.optics,
+            settings.camera.mount,
+            settings.geometry,
+            supervisor.telemetry,
+        )
         runner = JobRunner(
             supervisor=supervisor,
-            eye=Eye(
-                devices.camera,
-                settings.camera.optics,
-                settings.camera.mount,
-                settings.geometry,
-                supervisor.telemetry,
-            ),
+            eye=eye,
             station=devices.station,
             jobs=jobs,
             vehicles=vehicles,
@@ -108,6 +111,8 @@ async def running(
         camera = CameraFeed(devices.camera, CAMERA_PERIOD_S * speed)
         stack.push_async_callback(camera.close)
         live = LiveHub(PUSH_PERIOD_S * speed)
+        divergence = DivergenceWatcher(supervisor, runner, eye, settings.divergence)
+        stack.push_async_callback(divergence.close)
         services = Services(
             settings=settings,
             calendar=calendar,
@@ -123,6 +128,7 @@ async def running(
             ),
             camera=camera,
             live=live,
+            divergence=divergence,
             twin=twin,
             garage=devices.garage,
         )
@@ -207,6 +213,8 @@ def _show(services: Services) -> None:
         ),
     )
     live.add("service", lambda: _service(services))
+    live.add("twin", lambda: twin_report(services.divergence.parted, services.calendar))
+    services.divergence.listen(lambda _: live.changed("twin", urgent=True))
 
     shown: list[object] = [None]
 

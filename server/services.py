@@ -9,6 +9,7 @@ from drivers.simulator.garage import SimulatedGarage
 from server.config.settings import Settings
 from server.control.jog import Jog
 from server.control.supervisor import Supervisor
+from server.divergence import DivergenceWatcher
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
@@ -37,6 +38,7 @@ class Services:
         station: Newest reading of the charging station.
         camera: Pictures for people.
         live: Pushes what changes.
+        divergence: Runs the model beside the robot.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage behind the drivers; None with a real robot.
     """
@@ -53,5 +55,6 @@ class Services:
     station: StationWatch
     camera: CameraFeed
     live: LiveHub
+    divergence: DivergenceWatcher
     twin: TwinHost | None
     garage: SimulatedGarage | None

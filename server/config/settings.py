@@ -16,6 +16,7 @@ from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
+from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import PlatformPosition, UnreachableError, alpha, check_joint_limits
@@ -42,6 +43,7 @@ class Settings(BaseSettings):
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()
     motion: MotionLimits = MotionLimits()
+    divergence: DivergenceNumbers = DivergenceNumbers()
     loads: Loads = Loads()
     actuators: ActuatorLimits = ActuatorLimits()
     camera: CameraSettings = Field(default_factory=CameraSettings)

@@ -17,7 +17,7 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
-from server.control.board import Board
+from server.control.board import Board, OnSegments
 from server.control.errors import (
     EmergencyStoppedError,
     LateralMotionForbiddenError,
@@ -113,6 +113,10 @@ class Supervisor:
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change, telemetry included."""
         self._listeners.add(listener)
+
+    def listen_to_segments(self, listener: OnSegments) -> None:
+        """Call ``listener`` with all segments that the board has accepted; there is only one."""
+        self._board.on_segments = listener
 
     # Life
 
