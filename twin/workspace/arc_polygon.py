@@ -99,9 +99,7 @@ class ArcPolygon:
             float(piece.x_at(np.array(y_mm)))
             for piece in self.pieces
             if piece.start.y_mm != piece.end.y_mm
-            and min(piece.start.y_mm, piece.end.y_mm)
-            <= y_mm
-            <= max(piece.start.y_mm, piece.end.y_mm)
+            and (y_mm - piece.start.y_mm) * (y_mm - piece.end.y_mm) <= 0
         ]
         return (min(found), max(found)) if found else None
 

@@ -57,7 +57,7 @@ class Segment:
         return self.start.x_mm * self.end.y_mm - self.end.x_mm * self.start.y_mm
 
     def x_at(self, y_mm: Array) -> Array:
-        """X where the piece has a height y; the piece must not be horizontal."""
+        """Abscissae at heights of the piece [mm]; it must not be horizontal."""
         (x0, y0), (x1, y1) = self.start, self.end
         return x0 + (y_mm - y0) * ((x1 - x0) / (y1 - y0))
 
@@ -116,7 +116,7 @@ class Arc:
         return sector + self.center.x_mm * (y1 - y0) - self.center.y_mm * (x1 - x0)
 
     def x_at(self, y_mm: Array) -> Array:
-        """X where the piece has a height y; the height must be one of the piece's."""
+        """Abscissae at heights of the piece [mm]."""
         height = y_mm - self.center.y_mm
         reach = np.sqrt(np.maximum(self.radius_mm**2 - height * height, 0.0))
         return np.asarray(self.center.x_mm + self.side * reach)

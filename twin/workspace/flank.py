@@ -37,7 +37,7 @@ class Flank:
         return self.y_low_mm <= y_mm <= self.y_high_mm
 
     def x_at(self, y_mm: float) -> float:
-        """X of the flank at a height [mm]."""
+        """Abscissa of the flank at a height [mm]."""
         height = y_mm - self.center.y_mm
         reach = math.sqrt(max(self.radius_mm**2 - height * height, 0.0))
         return self.center.x_mm + self.side * reach

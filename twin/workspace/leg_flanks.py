@@ -47,7 +47,7 @@ def foot_abscissae(geometry: RobotGeometry) -> tuple[float, float]:
 
 
 def leg_band(geometry: RobotGeometry) -> Band:
-    """Heights of V on the assembly side that both legs reach; low exceeds high if there are none."""
+    """Heights of V on the assembly side that both legs reach; low exceeds high if none is."""
     middle_mm = 0.5 * (geometry.e1y_mm + geometry.e2y_mm)
     full_rise_mm = min(geometry.e1y_mm, geometry.e2y_mm) + geometry.leg_length_mm
     return Band(middle_mm, full_rise_mm, Limit.ASSEMBLY_SIDE, Limit.LEG_LENGTH)

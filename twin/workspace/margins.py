@@ -128,7 +128,7 @@ def require_fit(geometry: RobotGeometry, rectangle: Rectangle) -> StrokeMargins:
 
 
 def reach_mm(geometry: RobotGeometry, height_mm: float) -> float:
-    """d: how far a leg reaches along the rail at a height above its carriage; 0 beyond its length."""
+    """How far a leg reaches along the rail at a height above its carriage; 0 beyond its length."""
     return math.sqrt(max(geometry.leg_length_mm**2 - height_mm * height_mm, 0.0))
 
 
