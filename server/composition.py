@@ -27,6 +27,9 @@ from server.live.station_watch import StationWatch
 from server.live.twin_feed import feed_twin
 from server.live.views import robot_view, station_view
 from server.localisation.eye import Eye
+from server.recordings.playbacks import Playbacks
+from server.recordings.recorder import Recorder
+from server.recordings.store import RecordingStore
 from server.schema.live import Service
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
@@ -113,6 +116,26 @@ async def running(
         live = LiveHub(PUSH_PERIOD_S * speed)
         divergence = DivergenceWatcher(supervisor, runner, eye, settings.divergence)
         stack.push_async_callback(divergence.close)
+
+        def station_read() -> None:
+            recorder.station_changed()
+            live.changed("station")
+
+        station = StationWatch(devices.station, STATION_PERIOD_S * speed, station_read)
+        recordings = RecordingStore(folder, settings.recordings)
+        recorder = Recorder(
+            store=recordings,
+            settings=settings,
+            calendar=calendar,
+            supervisor=supervisor,
+            runner=runner,
+            eye=eye,
+            station=station,
+            divergence=divergence,
+            finished=lambda _: live.changed("job"),
+        )
+        recorder.start()
+        stack.push_async_callback(recorder.close)
         services = Services(
             settings=settings,
             calendar=calendar,
@@ -123,12 +146,12 @@ async def running(
             supervisor=supervisor,
             jog=Jog(supervisor, DEAD_MAN_S * speed),
             runner=runner,
-            station=StationWatch(
-                devices.station, STATION_PERIOD_S * speed, lambda: live.changed("station")
-            ),
+            station=station,
             camera=camera,
             live=live,
             divergence=divergence,
+            recordings=recordings,
+            playbacks=Playbacks(recordings, settings.recordings),
             twin=twin,
             garage=devices.garage,
         )
@@ -202,7 +225,7 @@ def _show(services: Services) -> None:
     """Connect what changes to those who watch."""
     live, supervisor, runner = services.live, services.supervisor, services.runner
     live.add("robot", lambda: robot_view(supervisor, runner.socket, services.calendar))
-    live.add("job", lambda: runner.newest)
+    live.add("job", lambda: runner.newest and services.recordings.show(runner.newest))
     live.add(
         "station",
         lambda: station_view(

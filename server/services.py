@@ -14,6 +14,8 @@ from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
 from server.live.station_watch import StationWatch
+from server.recordings.playbacks import Playbacks
+from server.recordings.store import RecordingStore
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
@@ -39,6 +41,8 @@ class Services:
         camera: Pictures for people.
         live: Pushes what changes.
         divergence: Runs the model beside the robot.
+        recordings: What was recorded of jobs.
+        playbacks: The same for the 3D picture.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage behind the drivers; None with a real robot.
     """
@@ -56,5 +60,7 @@ class Services:
     camera: CameraFeed
     live: LiveHub
     divergence: DivergenceWatcher
+    recordings: RecordingStore
+    playbacks: Playbacks
     twin: TwinHost | None
     garage: SimulatedGarage | None

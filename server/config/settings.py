@@ -11,6 +11,7 @@ from server.config.camera import CameraSettings
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
+from server.config.recordings import RecordingSettings
 from server.config.robot import RobotSettings
 from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
@@ -50,6 +51,7 @@ class Settings(BaseSettings):
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
     park: ParkSettings = ParkSettings()
+    recordings: RecordingSettings = RecordingSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
 

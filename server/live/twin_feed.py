@@ -32,4 +32,5 @@ def twin_state(services: Services) -> TwinState:
         charging=station is not None and station.pilot in {PilotState.C, PilotState.D},
         T_base_socket=socket.T_base_socket if socket else None,
         T_base_label=socket.T_base_label if socket else None,
+        parted=tuple(parted.quantity.value for parted in services.divergence.parted),
     )

@@ -46,23 +46,31 @@ class InsertionForce:
             sample: The robot.
             entry: Where the socket begins; None for a plug that moves freely.
         """
-        n = self._numbers
-        if abs(sample.velocity.rho3_mm_s) < n.slowest_mm_s:
-            return None
-        going_in = sample.velocity.rho3_mm_s > 0
         depth_mm = -math.inf if entry is None else sample.measured.rho3_mm - entry.face_rho3_mm
-        depth_sigma_mm = n.depth_sigma_mm
-        if entry is not None:
-            depth_sigma_mm = math.hypot(n.depth_sigma_mm, entry.sigma_mm)
+        face_sigma_mm = 0.0 if entry is None else entry.sigma_mm
+        return self.judge(depth_mm, sample.velocity.rho3_mm_s, sample.force_n, face_sigma_mm)
+
+    def judge(
+        self, depth_mm: float, speed_mm_s: float, force_n: float, face_sigma_mm: float
+    ) -> Residual | None:
+        """The same comparison with plain numbers.
+
+        Args:
+            depth_mm: Plug tip behind the socket's face.
+            speed_mm_s: Of the slide's set point, positive towards the car.
+            force_n: Measured.
+            face_sigma_mm: Standard deviation of the face's place.
+        """
+        n = self._numbers
+        if abs(speed_mm_s) < n.slowest_mm_s:
+            return None
+        going_in = speed_mm_s > 0
+        depth_sigma_mm = math.hypot(n.depth_sigma_mm, face_sigma_mm)
         contact_n, sigma_n = self.expected(depth_mm, depth_sigma_mm, going_in=going_in)
         if going_in:
-            return Residual(
-                Quantity.FORCE, contact_n + n.friction_n, sample.force_n, sigma_n, unit="N"
-            )
+            return Residual(Quantity.FORCE, contact_n + n.friction_n, force_n, sigma_n, unit="N")
         strongest_n = -contact_n - n.friction_n
-        return Residual(
-            Quantity.FORCE, strongest_n, min(sample.force_n, strongest_n), sigma_n, unit="N"
-        )
+        return Residual(Quantity.FORCE, strongest_n, min(force_n, strongest_n), sigma_n, unit="N")
 
     def expected(
         self, depth_mm: float, depth_sigma_mm: float, *, going_in: bool
