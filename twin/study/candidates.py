@@ -151,7 +151,7 @@ class Designer:
     def fixed_excess(self) -> dict[Demand, float]:
         """Relative excess over the demands on the slide, which no searched length changes."""
         slide, demands = self.base.rho3, self.demands
-        travel_mm = demands.depth_mm / math.cos(self.base.theta_rad)
+        travel_mm = demands.depth_mm / math.cos(self.base.theta_rad) + demands.insertion_travel_mm
         thrust_n = max(abs(slide_thrust_n(self.base, demands.loads, case)) for case in LoadCase)
         return {
             Demand.SLIDE_TRAVEL: travel_mm / slide.stroke_mm - 1,

@@ -48,6 +48,9 @@ class Demands(Frozen):
     height_mm: PositiveLength = Field(200.0, description="of the box, away from the rail")
     depth_mm: PositiveLength = Field(20.0, description="of the box, out of the wall")
     margin_mm: NotNegative = Field(10.0, description="stroke left at both ends of each carriage")
+    insertion_travel_mm: NotNegative = Field(
+        60.0, description="travel of the slide beside the box: 20 mm before the socket, 40 mm deep"
+    )
     max_condition: float = Field(
         3.0, ge=1, le=1e6, description="of the Jacobian of the parallel robot"
     )

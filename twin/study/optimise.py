@@ -66,7 +66,7 @@ class NoDesignError(TwinError):
 
 
 @dataclass(frozen=True, slots=True)
-class Design:
+class Optimum:
     """The smallest robot that was found.
 
     Attributes:
@@ -183,7 +183,7 @@ def optimise(
     objective: Objective = Objective.AREA,
     seed: int = 0,
     on_step: Callable[[int, int], None] = lambda done, total: None,  # noqa: ARG005
-) -> Design:
+) -> Optimum:
     """Smallest robot that serves a box.
 
     Args:
@@ -217,7 +217,7 @@ def optimise(
     if not verdict.passed:
         msg = f"the search and the exact test disagree about {geometry!r}: {verdict.missed}"
         raise AssertionError(msg)
-    return Design(
+    return Optimum(
         geometry,
         objective,
         value_of(geometry, objective),
