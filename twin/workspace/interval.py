@@ -8,7 +8,7 @@ import numpy as np
 
 from twin.workspace.boundary import Array
 
-SAMPLES = 2048
+SAMPLES = 512
 ZOOM_SAMPLES = 65
 RELATIVE_WIDTH = 1e-13
 

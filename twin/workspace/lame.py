@@ -112,6 +112,8 @@ def lame_margins(
         raise InvalidRectangleError(msg, {"exponent": exponent})
     a, b = foot_abscissae(geometry)
     low_mm, high_mm = leg_band(geometry)[:2]
+    bottom = Point(center_x_mm, center_y_mm - half_side_mm)
+    top = Point(center_x_mm, center_y_mm + half_side_mm)
 
     def curve(angle_rad: Array) -> tuple[Array, Array]:
         cosine, sine = np.cos(angle_rad), np.sin(angle_rad)
@@ -136,8 +138,8 @@ def lame_margins(
         margin(lambda angle: geometry.rho1.max_mm - rho1(angle), Limit.RHO1_MAX),
         margin(lambda angle: rho2(angle) - geometry.rho2.min_mm, Limit.RHO2_MIN),
         margin(lambda angle: geometry.rho2.max_mm - rho2(angle), Limit.RHO2_MAX),
-        margin(lambda angle: curve(angle)[1] - low_mm, Limit.ASSEMBLY_SIDE),
-        margin(lambda angle: high_mm - curve(angle)[1], Limit.LEG_LENGTH),
+        Margin(bottom.y_mm - low_mm, bottom, Limit.ASSEMBLY_SIDE),
+        Margin(high_mm - top.y_mm, top, Limit.LEG_LENGTH),
     )
 
 

@@ -103,19 +103,19 @@ def _values(geometry: RobotGeometry, measure: Measure, legs: _Legs, force: Plana
         case Measure.FORCE2:
             return d2 * (d1 * force.y_n - h1 * force.x_n) / det
         case Measure.SPEED_MIN:
-            # the product of both singular values is |det J| = d1 d2 / D
-            return d1 * d2 / det / _greatest_speed(legs)
+            # the product of both singular values of J is d1 d2 / D
+            return d1 * d2 / _greatest_singular_value(legs)
         case Measure.SPEED_MAX:
-            return _greatest_speed(legs)
+            return _greatest_singular_value(legs) / det
         case Measure.CONDITION:
-            return _greatest_speed(legs) ** 2 * det / (d1 * d2)
+            return _greatest_singular_value(legs) ** 2 / (d1 * d2 * det)
 
 
-def _greatest_speed(legs: _Legs) -> Array:
-    """The greater singular value of J: the root of the greater eigenvalue of J J^T."""
-    d1, h1, d2, h2, det = legs
+def _greatest_singular_value(legs: _Legs) -> Array:
+    """Of N = D J [mm^2]: the root of the greater eigenvalue of N N^T."""
+    d1, h1, d2, h2, _ = legs
     xx = (h2 * d1) ** 2 + (h1 * d2) ** 2
     yy = 2 * (d1 * d2) ** 2
     xy = d1 * d2 * (h2 * d1 - h1 * d2)
-    greatest: Array = np.sqrt(0.5 * (xx + yy + np.hypot(xx - yy, 2 * xy))) / det
+    greatest: Array = np.sqrt(0.5 * (xx + yy + np.hypot(xx - yy, 2 * xy)))
     return greatest

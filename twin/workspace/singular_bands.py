@@ -68,7 +68,8 @@ def _height_of_sum(geometry: RobotGeometry, sum_rad: float) -> float | None:
     """Height at which phi1 + phi2 has a value; None if one leg is upright before that."""
     delta_mm = 0.5 * abs(geometry.e1y_mm - geometry.e2y_mm)
     reach_mm = geometry.leg_length_mm * math.cos(0.5 * sum_rad)
-    if delta_mm > reach_mm:
+    # the steeper leg leans by s/2 + g, which is upright where sin(g) = cos(s/2)
+    if delta_mm > reach_mm * math.cos(0.5 * sum_rad):
         return None
     rise_mm = geometry.leg_length_mm * math.sin(0.5 * sum_rad)
     sine = delta_mm / reach_mm if reach_mm > 0 else 0.0

@@ -16,7 +16,7 @@ from tests.twin.workspace.robots import (
     robots,
     stroke_left,
 )
-from twin.geometry import RobotGeometry
+from twin.geometry import JointRange, RobotGeometry
 from twin.workspace import (
     InvalidRectangleError,
     Limit,
@@ -93,6 +93,26 @@ def test_it_may_sit_in_many_places() -> None:
     assert found.rectangle.height_mm == pytest.approx(532, abs=1e-8)
     assert found.free_x_mm > 50
     assert found.rectangle.center_x_mm == pytest.approx(650)
+
+
+def test_it_may_sit_in_a_round_corner() -> None:
+    """At the right carriage's own height the flattest part of its two circles leaves most room."""
+    geometry = RobotGeometry(
+        leg_length_mm=300,
+        base_width_mm=700,
+        platform_width_mm=50,
+        e1x_mm=0,
+        e2x_mm=0,
+        e2y_mm=10,
+        rho1=JointRange(min_mm=0, max_mm=51),
+        rho2=JointRange(min_mm=0, max_mm=50),
+    )
+    found = largest_rectangle(geometry, 5)
+    assert found.contacts == (Limit.RHO2_MIN, Limit.RHO2_MAX)
+    assert found.rectangle.center_y_mm == pytest.approx(10, abs=1e-2)
+    half = 0.5 * found.rectangle.height_mm
+    spent = 10 * half + 300 - math.sqrt(300**2 - half**2)
+    assert spent == pytest.approx(50, abs=1e-8)
 
 
 def test_about_a_given_centre() -> None:

@@ -95,7 +95,7 @@ def test_the_default_region() -> None:
 def test_long_strokes_reach_what_the_four_discs_exclude() -> None:
     """The discs bound the leaning of legs that is not used, too."""
     region = reachable_region(LONG_STROKES)
-    points, _ = grid_over(region, 301)
+    points, _ = grid_over(region, 121, 0)
     reached = stroke_left(LONG_STROKES, points) >= 0
     np.testing.assert_array_equal(region.contains_many(points), reached)
     allowed = np.array(
@@ -105,9 +105,9 @@ def test_long_strokes_reach_what_the_four_discs_exclude() -> None:
         ]
     ).reshape(reached.shape)
     wrong = points[reached & ~allowed]
-    assert len(wrong) > 1000
-    assert wrong.min(axis=0) == pytest.approx((302, 402), abs=3)
-    assert wrong.max(axis=0) == pytest.approx((998, 530), abs=3)
+    assert len(wrong) > 500
+    assert wrong.min(axis=0) == pytest.approx((302, 402), abs=8)
+    assert wrong.max(axis=0) == pytest.approx((998, 530), abs=8)
     assert not (allowed & ~reached).any()
     assert Limit.LEG_LENGTH in {piece.limit for piece in region.pieces}
 
