@@ -6,34 +6,23 @@ from dataclasses import dataclass
 from typing import Self
 
 from twin.geometry import RobotGeometry
-
-STANDARD_GRAVITY_M_S2 = 9.80665
+from twin.statics.loads import LoadCase, Loads, platform_push_n
 
 
 @dataclass(frozen=True, slots=True)
 class PlanarForce:
     """Force that the platform exerts on its surroundings, in the base frame [N].
 
-    Forces add up. The component across the wall plane is borne by the guides and asks nothing of
-    the carriages.
+    The component across the wall plane is borne by the guides and asks nothing of the carriages.
     """
 
     x_n: float = 0.0
     y_n: float = 0.0
 
-    def __add__(self, other: PlanarForce) -> PlanarForce:
-        return PlanarForce(self.x_n + other.x_n, self.y_n + other.y_n)
-
     @classmethod
-    def insertion(cls, geometry: RobotGeometry, force_n: float) -> Self:
-        """What pushing the plug along the insertion axis asks in the wall plane: sin(theta) of it.
+    def of_loads(cls, geometry: RobotGeometry, loads: Loads, case: LoadCase) -> Self:
+        """What holding the robot's weight and working on the socket ask for.
 
-        Negative forces pull, as in withdrawing.
+        A force F along the insertion axis leaves F sin(theta) to the platform.
         """
-        _, axis_y, _ = geometry.insertion_axis
-        return cls(0.0, force_n * axis_y)
-
-    @classmethod
-    def holding(cls, mass_kg: float) -> Self:
-        """What holding a mass on the platform against gravity asks."""
-        return cls(0.0, mass_kg * STANDARD_GRAVITY_M_S2)
+        return cls(0.0, platform_push_n(geometry, loads, case))

@@ -10,7 +10,7 @@ from tests.twin.strategies import PosedRobot, between, posed_robots
 from tests.twin.workspace.robots import DEFAULT, UNEVEN, robots
 from twin.geometry import RobotGeometry
 from twin.kinematics import PlatformPosition, alpha, singularity
-from twin.statics import alpha_actuator_forces
+from twin.statics import LoadCase, Loads, alpha_actuator_forces
 from twin.workspace import (
     Measure,
     PlanarForce,
@@ -73,12 +73,18 @@ def test_a_pure_lift_asks_less_the_higher_the_platform_stands() -> None:
     assert (np.diff(force) < 0).all()
 
 
-def test_forces_of_inserting_and_holding() -> None:
-    insertion = PlanarForce.insertion(DEFAULT, 70)
-    assert insertion.x_n == 0
-    assert insertion.y_n == pytest.approx(70 * math.sin(math.radians(-10)))
-    assert PlanarForce.holding(2).y_n == pytest.approx(19.6133)
-    assert insertion + PlanarForce(1, 2) == PlanarForce(1, insertion.y_n + 2)
+def test_forces_of_inserting_and_withdrawing() -> None:
+    """Pushing down the slope leaves a part of the weight to the socket; pulling adds to it."""
+    loads = Loads()
+    weight = 9.80665 * loads.on_platform_kg
+    for case, axial in (
+        (LoadCase.HOLDING, 0),
+        (LoadCase.INSERTING, 70),
+        (LoadCase.WITHDRAWING, -70),
+    ):
+        force = PlanarForce.of_loads(DEFAULT, loads, case)
+        assert force.x_n == 0
+        assert force.y_n == pytest.approx(weight + axial * math.sin(math.radians(-10)))
 
 
 @settings(max_examples=40)
