@@ -10,6 +10,7 @@ from twin.workspace.ellipses import Ellipse, force_ellipse, velocity_ellipse
 from twin.workspace.errors import (
     EmptyRegionError,
     EmptyWorkspaceError,
+    InvalidGridError,
     InvalidRectangleError,
     RectangleOutsideError,
     SingularRectangleError,
@@ -50,6 +51,7 @@ __all__ = [
     "Extent",
     "Extreme",
     "Extremes",
+    "InvalidGridError",
     "InvalidRectangleError",
     "LameComparison",
     "LargestRectangle",

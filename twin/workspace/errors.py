@@ -4,6 +4,7 @@ WorkspaceError
 ├── EmptyWorkspaceError     the robot reaches no position at all
 ├── EmptyRegionError        a figure was asked of a region that has no points
 ├── InvalidRectangleError   the sizes or the place make no rectangle
+├── InvalidGridError        the step makes no grid
 ├── RectangleOutsideError   a rectangle is not inside the workspace; says where it leaves it
 └── SingularRectangleError  a rectangle touches a singularity, where the figure is infinite
 """
@@ -41,6 +42,13 @@ class InvalidRectangleError(WorkspaceError):
 
     code: ClassVar[str] = "invalid_rectangle"
     remedy: ClassVar[str] = "Give finite numbers and sizes greater than zero."
+
+
+class InvalidGridError(WorkspaceError):
+    """A step that makes no grid."""
+
+    code: ClassVar[str] = "invalid_grid"
+    remedy: ClassVar[str] = "Give a finite step greater than zero."
 
 
 class RectangleOutsideError(WorkspaceError):

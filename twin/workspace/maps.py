@@ -12,6 +12,7 @@ from twin.geometry import RobotGeometry
 from twin.kinematics import alpha
 from twin.kinematics.gamma import LIMIT_TOLERANCE_MM
 from twin.workspace.boundary import Array
+from twin.workspace.errors import InvalidGridError
 from twin.workspace.measures import NO_FORCE, Measure, measure_rows
 from twin.workspace.planar_force import PlanarForce
 from twin.workspace.regions import reachable_region
@@ -76,8 +77,12 @@ def map_axes(geometry: RobotGeometry, step_mm: float) -> tuple[Array, Array]:
     The spacing is the step or a little less.
 
     Raises:
+        InvalidGridError: the step is not finite or not greater than zero.
         EmptyWorkspaceError: the robot reaches no position.
     """
+    if not (math.isfinite(step_mm) and step_mm > 0):
+        msg = f"a grid cannot have a step of {step_mm:g} mm"
+        raise InvalidGridError(msg, {"step_mm": step_mm})
     extent = reachable_region(geometry).extent
     return (
         _even(extent.x_min_mm, extent.x_max_mm, step_mm),

@@ -12,6 +12,7 @@ from twin.geometry import RobotGeometry
 from twin.kinematics import PlatformPosition, alpha, singularity
 from twin.statics import LoadCase, Loads, alpha_actuator_forces
 from twin.workspace import (
+    InvalidGridError,
     Measure,
     PlanarForce,
     Rectangle,
@@ -188,3 +189,9 @@ def test_maps() -> None:
         float(maps.rho2_mm[row, column]),
     )
     assert forces[row, column] == pytest.approx(alpha_actuator_forces(legs, 7, -30)[1])
+
+
+@pytest.mark.parametrize("step", [0.0, -1.0, math.nan, math.inf])
+def test_steps_that_make_no_grid(step: float) -> None:
+    with pytest.raises(InvalidGridError, match="cannot have a step"):
+        map_axes(DEFAULT, step)
