@@ -18,6 +18,7 @@ from twin.scene.glb import Part
 from twin.scene.materials import (
     ANTHRACITE,
     GLASS_FADING,
+    GUESSED,
     LAMP,
     PAINT,
     PAINT_FADING,
@@ -91,19 +92,19 @@ _PLAN = np.array(
 )
 
 
-def _levels(theta_rad: float) -> Points:
+def _levels(theta_rad: float, per_span: int = 2) -> Points:
     """The nose's levels on a smooth curve, those of the patch on the plane of the socket."""
     table = _LEVELS.copy()
     table[:, 1] = np.where(np.isnan(table[:, 1]), -table[:, 0] * math.tan(theta_rad), table[:, 1])
-    smooth = rounded_curve(table, 4)
+    smooth = rounded_curve(table, per_span)
     on_patch = np.abs(smooth[:, 0]) <= PATCH_HALF_HEIGHT
     smooth[on_patch, 1] = -smooth[on_patch, 0] * math.tan(theta_rad)
     return smooth
 
 
-def _plan() -> Points:
+def _plan(per_span: int = 2) -> Points:
     """The plan from the car's right to its left, flat across the patch."""
-    half = rounded_curve(_PLAN, 3)
+    half = rounded_curve(_PLAN, per_span)
     half[half[:, 0] <= _PLAN[1, 0], 1] = 0.0
     return np.concatenate([half[:0:-1] * (-1, 1), half])
 
@@ -133,9 +134,9 @@ def _parted(mesh: Mesh) -> tuple[Mesh, Mesh]:
     return opaque, Mesh(mesh.vertices_mm, mesh.faces[~front], alpha=mesh.alpha)
 
 
-def _nose(theta_rad: float) -> Mesh:
+def _nose(theta_rad: float, per_span: int = 2) -> Mesh:
     """The painted body without the rectangle of the patch."""
-    levels, plan = _levels(theta_rad), _plan()
+    levels, plan = _levels(theta_rad, per_span), _plan(per_span)
     low, high = (int(np.argmin(np.abs(levels[:, 0] - y))) for y in (-150.0, 150.0))
     left, right = (int(np.argmin(np.abs(plan[:, 0] - s * _PLAN[1, 0]))) for s in (-1, 1))
     skin = _skin(levels, plan)
@@ -152,7 +153,7 @@ def _patch(theta_rad: float) -> Mesh:
     w, h = PATCH_HALF_WIDTH, PATCH_HALF_HEIGHT
     corner = math.atan2(h, w)
     special = [corner, math.pi - corner, math.pi + corner, 2 * math.pi - corner]
-    angles = np.sort(np.concatenate([np.arange(48) * math.pi / 24, special]))
+    angles = np.sort(np.concatenate([np.arange(40) * math.pi / 20, special]))
     directions = np.column_stack([np.cos(angles), np.sin(angles)])
     reach = np.minimum(
         w / np.maximum(np.abs(directions[:, 0]), 1e-9),
@@ -167,11 +168,11 @@ def _patch(theta_rad: float) -> Mesh:
 def _strip(theta_rad: float, y: tuple[float, float], part: tuple[float, float], out: float) -> Mesh:
     """A patch laid on the body between two heights and two parts of the half width."""
     known = _levels(theta_rad)
-    heights = np.linspace(*y, 6)
+    heights = np.linspace(*y, 3)
     levels = np.column_stack(
         [heights, *(np.interp(heights, known[:, 0], known[:, i]) for i in (1, 2))]
     )
-    across = np.linspace(*part, 40)
+    across = np.linspace(*part, 24)
     plan = _plan()
     behind = np.interp(across, plan[:, 0], plan[:, 1])
     mesh = _surface(_skin(levels, np.column_stack([across, behind]), outwards_mm=out))
@@ -185,8 +186,8 @@ def _upright_to_socket(mesh: Mesh, theta_rad: float) -> Mesh:
 
 def body(theta_rad: float) -> list[Part]:
     """Painted body, glass, lamps and grille in the frame of a socket tilted by theta."""
-    windows = _surface(_skin(rounded_curve(_WINDOWS, 3), _plan()))
-    roof = _surface(_skin(rounded_curve(_ROOF, 3), _plan()))
+    windows = _surface(_skin(rounded_curve(_WINDOWS, 1), _plan(1)))
+    roof = _surface(_skin(rounded_curve(_ROOF, 1), _plan(1)))
     front, rear = _parted(_nose(theta_rad))
     parts: list[Part] = [(front, PAINT), (_patch(theta_rad), PAINT)]
     parts += [(rear, PAINT_FADING), (roof, PAINT_FADING), (windows, GLASS_FADING)]
@@ -199,10 +200,11 @@ def body(theta_rad: float) -> list[Part]:
     return [(_upright_to_socket(mesh, theta_rad), material) for mesh, material in parts]
 
 
-def silhouette(theta_rad: float) -> Mesh:
-    """The body alone, without transparency of its own: shown when the car's place is a guess."""
-    front, _ = _parted(_nose(theta_rad))
-    return _upright_to_socket(merged([front, _patch(theta_rad)]), theta_rad)
+def silhouette(theta_rad: float) -> list[Part]:
+    """The front of the body alone: shown when the car's place is a guess."""
+    front, _ = _parted(_nose(theta_rad, per_span=1))
+    whole = merged([Mesh(front.vertices_mm, front.faces), _patch(theta_rad)])
+    return [(_upright_to_socket(whole, theta_rad), GUESSED)]
 
 
 def inlet() -> list[Part]:
@@ -231,13 +233,12 @@ def wheels() -> list[Part]:
             (WHEEL_RADIUS - 26.0, WHEEL_WIDTH),
             (0.0, WHEEL_WIDTH),
         ],
-        count=48,
     )
-    rim = plate(circle(186.0, 48), 12.0, chamfer_mm=5.0)
-    opening = circle(WHEEL_RADIUS + 40.0, 48)
+    rim = plate(circle(186.0, 24), 12.0, chamfer_mm=5.0)
+    opening = circle(WHEEL_RADIUS + 40.0, 28)
     opening[:, 1] = np.maximum(opening[:, 1], -110.0)
     arch = plate(opening, 3.0, chamfer_mm=1.0)
-    hub = plate(circle(34.0, 24), 18.0, chamfer_mm=4.0)
+    hub = plate(circle(34.0, 12), 18.0, chamfer_mm=4.0)
     parts: list[Part] = []
     for side in (-1, 1):
         # The lathe's z axis becomes the wheel's axle, pointing out of the car.

@@ -27,9 +27,9 @@ class CarNodes:
         self.car = add_pivot(scene, "/car")
         self.body = add_part(scene, "/car/body", car.body(theta))
         add_part(scene, "/car/inlet", car.inlet())
-        self.faded = add_signal(scene, "/car/faded", car.silhouette(theta), IDLE, opacity=0.22)
+        self.faded = add_part(scene, "/car/faded", car.silhouette(theta), shadow=False)
         r = plug_parts.CAVITY_RADIUS + 13.0
-        ring = lathe([(r + 1, -2), (r + 5, -5), (r + 9, -2), (r + 9, 3)], count=56)
+        ring = lathe([(r + 1, -2), (r + 5, -5), (r + 9, -2), (r + 9, 3)], count=24)
         self.ring = add_signal(scene, "/car/ring", ring, IDLE)
         self.wheels = add_part(scene, "/wheels", car.wheels())
         self.label = add_part(scene, "/label", car.label())

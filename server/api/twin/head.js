@@ -1,6 +1,4 @@
 // Runs before the 3D client, in the same page.
-"use strict";
-
 // The colour scheme is dark unless the address says ?theme=light.
 // A window narrower than high sees as much from left to right as a square one does.
 {
@@ -23,12 +21,6 @@
 document.hasFocus = () => document.visibilityState === "visible";
 document.addEventListener("visibilitychange", () => {
   window.dispatchEvent(new Event(document.hidden ? "blur" : "focus"));
-});
-
-// The client loads a sorter for point splats, which wants to build code from text. The policy
-// refuses that, and this picture has no splats.
-addEventListener("unhandledrejection", (event) => {
-  if (event.reason instanceof EvalError) event.preventDefault();
 });
 
 // Phones drop the graphics context of hidden pages; what comes back has lost its lights.

@@ -20,7 +20,14 @@ pytestmark = pytest.mark.browser
 SMALL: ViewportSize = {"width": 160, "height": 120}
 """Software graphics are slow."""
 HOME = JointPosition(200.0, 200.0, 60.0)
-NODES = ["/robot/bar_ab", "/robot/platform/plug", "/car/inlet", "/label", "/cable", "/region/edges"]
+NODES = [
+    "/robot/bar_ab",
+    "/robot/platform/plug",
+    "/car/inlet",
+    "/label",
+    "/cable",
+    "/overlays/box/edges",
+]
 
 
 async def open_twin(browser: Browser, address: str, path: str = "/twin/") -> Page:
