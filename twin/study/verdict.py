@@ -47,6 +47,14 @@ class Check:
         return slack >= -ROUNDING * max(1.0, abs(self.limit))
 
 
+def _at_least(demand: Demand, value: float, limit: float, unit: str = "") -> Check:
+    return Check(demand, value, limit, at_most=False, unit=unit)
+
+
+def _at_most(demand: Demand, value: float, limit: float, unit: str = "") -> Check:
+    return Check(demand, value, limit, at_most=True, unit=unit)
+
+
 @dataclass(frozen=True, slots=True)
 class Verdict:
     """All demands on one robot."""
@@ -85,23 +93,18 @@ def verify(geometry: RobotGeometry, demands: Demands) -> Verdict:
     limits = demands.limits
     return Verdict(
         (
-            Check(Demand.LEG_LENGTH, plane.leg_length.value_mm, 0.0, False, "mm"),
-            Check(Demand.ABOVE_CARRIAGES, plane.assembly_side.value_mm, 0.0, False, "mm"),
-            Check(
-                Demand.STROKE,
-                min(margin.value_mm for margin in strokes),
-                demands.margin_mm,
-                False,
-                "mm",
+            _at_least(Demand.LEG_LENGTH, plane.leg_length.value_mm, 0.0, "mm"),
+            _at_least(Demand.ABOVE_CARRIAGES, plane.assembly_side.value_mm, 0.0, "mm"),
+            _at_least(
+                Demand.STROKE, min(left.value_mm for left in strokes), demands.margin_mm, "mm"
             ),
-            Check(
+            _at_least(
                 Demand.SLIDE_TRAVEL,
                 margins.rho3_min_mm + margins.rho3_max_mm,
                 demands.insertion_travel_mm,
-                at_most=False,
-                unit="mm",
+                "mm",
             ),
-            Check(Demand.SLIDE_FORCE, thrust_n, limits.rho3_n, True, "N"),
+            _at_most(Demand.SLIDE_FORCE, thrust_n, limits.rho3_n, "N"),
             *_over_the_rows(geometry, demands, margins.platform, length),
         )
     )
@@ -129,33 +132,20 @@ def _over_the_rows(
     singularity, limits = demands.singularity, demands.limits
     bar_mm = math.hypot(0.5 * geometry.platform_width_mm, geometry.e_py_mm)
     return (
-        Check(Demand.CONDITION, greatest(Measure.CONDITION), demands.max_condition, True, ""),
-        Check(
+        _at_most(Demand.CONDITION, greatest(Measure.CONDITION), demands.max_condition),
+        _at_most(
             Demand.CARRIAGE_FORCE,
             max(greatest(Measure.FORCE1), greatest(Measure.FORCE2)),
             min(limits.rho1_n, limits.rho2_n),
-            True,
             "N",
         ),
-        Check(
-            Demand.PARALLEL,
-            least(Measure.DETERMINANT) / length_mm**2,
-            singularity.parallel,
-            False,
-            "",
+        _at_least(Demand.PARALLEL, least(Measure.DETERMINANT) / length_mm**2, singularity.parallel),
+        _at_least(
+            Demand.SERIAL, min(least(Measure.D1), least(Measure.D2)) / length_mm, singularity.serial
         ),
-        Check(
-            Demand.SERIAL,
-            min(least(Measure.D1), least(Measure.D2)) / length_mm,
-            singularity.serial,
-            False,
-            "",
-        ),
-        Check(
+        _at_least(
             Demand.PARALLELOGRAM,
             least(Measure.PARALLELOGRAM_AREA) / (length_mm * bar_mm),
             singularity.parallelogram,
-            False,
-            "",
         ),
     )

@@ -49,5 +49,7 @@ def write_figures(
         path = folder / f"{name}.{picture_format}"
         with printed_page():
             figure = draw(geometry, demands or Demands())
-            figure.savefig(path, format=picture_format, metadata=metadata)
+            figure.savefig(
+                path, format=picture_format, metadata=metadata, bbox_inches="tight", pad_inches=0.04
+            )
         yield path

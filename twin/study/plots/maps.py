@@ -19,7 +19,7 @@ from twin.geometry import JointRange, RobotGeometry
 from twin.statics import LoadCase
 from twin.statics.loads import platform_push_n
 from twin.study.demands import Demands
-from twin.study.plots.style import INK, SQUARE, legend_below, new_figure, wall_axes
+from twin.study.plots.style import INK, SQUARE, legend_below, new_figure, paper_height_mm, wall_axes
 from twin.study.plots.workspace import outline, shape_name
 from twin.workspace import (
     ArcPolygon,
@@ -69,17 +69,21 @@ def draw_maps(geometry: RobotGeometry, demands: Demands | None = None) -> Figure
     y = np.arange(extent.y_min_mm + 0.5 * STEP_MM, extent.y_max_mm + 2 * STEP_MM, STEP_MM)
     regular = Rectangle.of_box(geometry.regular_box)
     inside = region.contains_many(np.stack(np.meshgrid(x, y), axis=-1))
-    figure = new_figure(138.0)
+    size = (extent.x_max_mm - extent.x_min_mm, extent.y_max_mm - extent.y_min_mm)
+    panel_mm = paper_height_mm(39.0, size, besides_mm=14.0)
+    figure = new_figure(2 * min(max(panel_mm, 34.0), 90.0) + 18.0)
     axes_of_panels = figure.subplots(2, 3, sharex=True, sharey=True).ravel().tolist()
     for axes, panel in zip(axes_of_panels, map_panels(geometry, demands, x, y), strict=True):
         wall_axes(axes, panel.title)
         clip = _outline_of(region)
         axes.add_patch(clip)
         seen = panel.values[inside & np.isfinite(panel.values)]
-        _draw(axes, x, y, panel, clip=clip, seen=_seen(panel.levels, seen))
+        _draw(axes, x, y, panel, clip=clip, scale=_scale(panel, seen))
         name = f"regular {shape_name(regular)}" if axes is axes_of_panels[0] else None
         outline(axes, regular, SQUARE, name)
         axes.label_outer()
+        axes.set_xlim(extent.x_min_mm - 0.03 * size[0], extent.x_max_mm + 0.03 * size[0])
+        axes.set_ylim(extent.y_min_mm - 0.03 * size[1], extent.y_max_mm + 0.03 * size[1])
     axes_of_panels[0].plot([], [], color=INK, linewidth=1.0, linestyle="--", label="limit")
     legend_below(figure, columns=2)
     return figure
@@ -100,7 +104,7 @@ def map_panels(
     bar_mm = np.hypot(0.5 * geometry.platform_width_mm, geometry.e_py_mm)
     sine = any_map.of(Measure.PARALLELOGRAM_AREA) / (geometry.leg_length_mm * bar_mm)
     limit_n = min(demands.limits.rho1_n, demands.limits.rho2_n)
-    force_levels = (5.0, 10.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 300.0)
+    force_levels = (0.0, 5.0, 10.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 300.0)
     return (
         MapPanel(
             "(a) Condition number", "condition number (-)", any_map.of(Measure.CONDITION),
@@ -155,39 +159,51 @@ def _outline_of(region: ArcPolygon) -> PathPatch:
     return PathPatch(whole, facecolor="none", edgecolor=INK, linewidth=0.9, zorder=4)
 
 
-class _Seen(NamedTuple):
+class _Scale(NamedTuple):
     levels: list[float]
-    beyond: bool  # there are values above the last level
+    extend: str  # "neither", "min", "max" or "both", as matplotlib calls values beyond the levels
+    limit: float | None  # None too if no value in the workspace comes that far
 
 
-def _seen(levels: tuple[float, ...], seen: Array) -> _Seen:
-    """The levels from the last one below all values to the first one above them."""
-    below = [level for level in levels if level <= seen.min()]
-    above = [level for level in levels if level >= seen.max()]
-    first = below[-1] if below else levels[0]
-    last = above[0] if above else levels[-1]
-    return _Seen([level for level in levels if first <= level <= last], not above)
+def _scale(panel: MapPanel, seen: Array) -> _Scale:
+    """The levels from the last one below all values seen to the first one above them."""
+    levels = np.array(panel.levels)
+    least, greatest = float(seen.min()), float(seen.max())
+    first = int(np.searchsorted(levels, least, side="right")) - 1
+    last = int(np.searchsorted(levels, greatest, side="left"))
+    first = min(max(first, 0), len(levels) - 2)
+    last = max(min(last, len(levels) - 1), first + 1)
+    below, above = least < levels[first], greatest > levels[last]
+    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
+    reached = panel.limit is not None and least < panel.limit < greatest
+    return _Scale(
+        levels[first : last + 1].tolist(),
+        extend[int(below), int(above)],
+        panel.limit if reached else None,
+    )
 
 
-def _draw(axes: Axes, x: Array, y: Array, panel: MapPanel, *, clip: PathPatch, seen: _Seen) -> None:
+def _draw(
+    axes: Axes, x: Array, y: Array, panel: MapPanel, *, clip: PathPatch, scale: _Scale
+) -> None:
     """One map with its scale beside it."""
     axes.grid(visible=False)
-    levels = seen.levels
+    levels = scale.levels
     filled = axes.contourf(
         x, y, panel.values, levels=levels, cmap=panel.colours,
-        norm=BoundaryNorm(levels, 256), extend="max" if seen.beyond else "neither", zorder=1,
+        norm=BoundaryNorm(levels, 256), extend=scale.extend, zorder=1,
     )  # fmt: skip
     lines = axes.contour(x, y, panel.values, levels=levels, colors="white", linewidths=0.5)
     for part in (filled, lines):
         part.set_clip_path(clip)
-    scale = axes.figure.colorbar(
+    bar = axes.figure.colorbar(
         filled, cax=axes.inset_axes((1.03, 0.0, 0.05, 1.0)), ticks=levels, format="%g"
     )
-    scale.set_label(panel.unit)
-    scale.ax.minorticks_off()
-    if panel.limit is not None and levels[0] < panel.limit < levels[-1]:
+    bar.set_label(panel.unit)
+    bar.ax.minorticks_off()
+    if scale.limit is not None:
         edge = axes.contour(
-            x, y, panel.values, levels=[panel.limit], colors=INK, linewidths=1.0, linestyles="--"
+            x, y, panel.values, levels=[scale.limit], colors=INK, linewidths=1.0, linestyles="--"
         )
         edge.set_clip_path(clip)
-        scale.ax.axhline(panel.limit, color=INK, linewidth=1.0, linestyle="--")
+        bar.ax.axhline(scale.limit, color=INK, linewidth=1.0, linestyle="--")

@@ -17,6 +17,7 @@ from twin.study.plots.style import (
     SQUARE,
     legend_below,
     new_figure,
+    paper_height_mm,
     wall_axes,
 )
 from twin.study.plots.workspace import draw_arcs, fill_region, outline, shape_name, size_text
@@ -30,12 +31,25 @@ def draw_placements(geometry: RobotGeometry) -> Figure:
     box = geometry.regular_box
     regular = Rectangle.of_box(box)
     centers = placement_region(geometry, box.width_mm, box.height_mm)
-    figure = new_figure(108.0)
-    left, right = figure.subplots(1, 2, width_ratios=(1.0, 1.0))
+    low, high, left, right = _seen(reachable_region(geometry), regular)
+    height_mm = paper_height_mm(62.0, (right - left, high - low), besides_mm=36.0)
+    figure = new_figure(min(max(height_mm, 66.0), 150.0))
+    left, right = figure.subplots(1, 2)
     _whole(left, geometry, regular, centers)
     _centers_from_near(right, regular, centers)
-    legend_below(figure, columns=3)
+    legend_below(figure)
     return figure
+
+
+def _seen(region: ArcPolygon, regular: Rectangle) -> tuple[float, float, float, float]:
+    """Lowest, highest, leftmost and rightmost of what the left panel shows [mm]."""
+    extent = region.extent
+    return (
+        min(extent.y_min_mm, regular.y_min_mm),
+        max(extent.y_max_mm, regular.y_max_mm),
+        min(extent.x_min_mm, regular.x_min_mm),
+        max(extent.x_max_mm, regular.x_max_mm),
+    )
 
 
 def _whole(axes: Axes, geometry: RobotGeometry, regular: Rectangle, centers: ArcPolygon) -> None:
@@ -61,7 +75,7 @@ def _whole(axes: Axes, geometry: RobotGeometry, regular: Rectangle, centers: Arc
 def _centers_from_near(axes: Axes, regular: Rectangle, centers: ArcPolygon) -> None:
     if centers.is_empty:
         axes.set_axis_off()
-        axes.set_title("(b) It fits nowhere", loc="left")
+        axes.text(0.5, 0.5, "It fits nowhere.", transform=axes.transAxes, ha="center")
         return
     wall_axes(axes, f"(b) Centres, {centers.area_mm2:.0f} mm$^2$")
     _fill(axes, centers, None)

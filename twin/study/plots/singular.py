@@ -32,7 +32,7 @@ class Posture:
 
 
 def singular_postures(geometry: RobotGeometry) -> tuple[Posture, ...]:
-    """The postures of the three kinds of singularity, V half way between the carriages."""
+    """The postures of the three kinds of singularity, as far within the strokes as can be."""
     length = geometry.leg_length_mm
     low, high = max(geometry.e1y_mm, geometry.e2y_mm), min(geometry.e1y_mm, geometry.e2y_mm)
     folded_y = _folded_height(geometry)
@@ -79,17 +79,18 @@ def _panel(axes: Axes, geometry: RobotGeometry, posture: Posture) -> None:
 
 
 def _posture(geometry: RobotGeometry, title: str, y_mm: float, remark: str = "") -> Posture:
-    """The posture with V at a height, as far from the ends of both strokes as it can be."""
+    """The posture with V at a height, as far from the ends of both strokes as can be."""
     d1, d2 = (
         math.sqrt(max(geometry.leg_length_mm**2 - (y_mm - foot) ** 2, 0.0))
         for foot in (geometry.e1y_mm, geometry.e2y_mm)
     )
     left_mm, right_mm = alpha.feet_mm(geometry, 0.0, 0.0)
-    # rho1 = x - left - d1 and rho2 = right - x - d2, each as near to the middle of its stroke
+    # rho1 = x - left - d1 and rho2 = right - x - d2, so at one height their sum is given
     rho_sum = right_mm - left_mm - d1 - d2
-    middle = 0.5 * (geometry.rho1.min_mm + geometry.rho1.max_mm)
-    other = 0.5 * (geometry.rho2.min_mm + geometry.rho2.max_mm)
-    rho1 = 0.5 * (rho_sum + middle - other)
+    # the middle of what both strokes leave, or of the gap where they leave nothing
+    low = max(geometry.rho1.min_mm, rho_sum - geometry.rho2.max_mm)
+    high = min(geometry.rho1.max_mm, rho_sum - geometry.rho2.min_mm)
+    rho1 = 0.5 * (low + high)
     rho2 = rho_sum - rho1
     excess = max(abs(geometry.rho1.excess_mm(rho1)), abs(geometry.rho2.excess_mm(rho2)))
     within = "Within the strokes." if excess < 1e-6 else f"{excess:.0f} mm beyond the strokes."

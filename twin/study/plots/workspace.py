@@ -51,11 +51,14 @@ def draw_workspace(geometry: RobotGeometry) -> Figure:
 
 def figure_height_mm(geometry: RobotGeometry, region: ArcPolygon, regular: Rectangle) -> float:
     """Height on paper of a figure of the whole robot, legend included."""
-    low = min(0.0, geometry.e1y_mm + geometry.e_py_mm, geometry.e2y_mm, regular.y_min_mm)
-    high = max(region.extent.y_max_mm, regular.y_max_mm)
-    return paper_height_mm(
-        158.0, (1.06 * geometry.base_width_mm, 1.06 * (high - low)), besides_mm=34.0
-    )
+    extent = region.extent
+    rail_end = geometry.base_width_mm + max(0.0, -geometry.e2x_mm)
+    left = min(0.0, geometry.e1x_mm, extent.x_min_mm, regular.x_min_mm)
+    right = max(rail_end, extent.x_max_mm, regular.x_max_mm)
+    low = min(geometry.e1y_mm, geometry.e1y_mm + geometry.e_py_mm, geometry.e2y_mm)
+    low = min(low, regular.y_min_mm)
+    high = max(extent.y_max_mm, regular.y_max_mm)
+    return paper_height_mm(158.0, (right - left, high - low), besides_mm=38.0)
 
 
 def shape_name(rectangle: Rectangle) -> str:
