@@ -25,6 +25,7 @@ farthest corners do (two arcs).
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 from twin.geometry import RobotGeometry
@@ -59,32 +60,22 @@ def leg_flanks(
     """Flanks for the centre of a rectangle of V positions; of a point by default."""
     a, b = foot_abscissae(geometry)
     rho1, rho2 = geometry.rho1, geometry.rho2
-    left = Point(a + half_width_mm, geometry.e1y_mm), Point(b + half_width_mm, geometry.e2y_mm)
-    right = Point(a - half_width_mm, geometry.e1y_mm), Point(b - half_width_mm, geometry.e2y_mm)
-    radius_mm = geometry.leg_length_mm
-
-    def outside(center: Point, shift_mm: float, side: int, limit: Limit) -> tuple[Flank, ...]:
-        foot = Point(center.x_mm + shift_mm, center.y_mm)
-        return _outside(foot, radius_mm, side, half_height_mm, limit)
-
-    def inside(center: Point, shift_mm: float, side: int, limit: Limit) -> tuple[Flank, ...]:
-        foot = Point(center.x_mm + shift_mm, center.y_mm)
-        return _inside(foot, radius_mm, side, half_height_mm, limit)
-
+    outside = partial(_outside, geometry.leg_length_mm, half_height_mm)
+    inside = partial(_inside, geometry.leg_length_mm, half_height_mm)
     return Flanks(
         left=(
-            *outside(left[0], rho1.min_mm, 1, Limit.RHO1_MIN),
-            *inside(left[1], -rho2.max_mm, -1, Limit.RHO2_MAX),
+            *outside(Point(a + rho1.min_mm + half_width_mm, geometry.e1y_mm), 1, Limit.RHO1_MIN),
+            *inside(Point(b - rho2.max_mm + half_width_mm, geometry.e2y_mm), -1, Limit.RHO2_MAX),
         ),
         right=(
-            *inside(right[0], rho1.max_mm, 1, Limit.RHO1_MAX),
-            *outside(right[1], -rho2.min_mm, -1, Limit.RHO2_MIN),
+            *inside(Point(a + rho1.max_mm - half_width_mm, geometry.e1y_mm), 1, Limit.RHO1_MAX),
+            *outside(Point(b - rho2.min_mm - half_width_mm, geometry.e2y_mm), -1, Limit.RHO2_MIN),
         ),
     )
 
 
 def _outside(
-    center: Point, radius_mm: float, side: int, half_height_mm: float, limit: Limit
+    radius_mm: float, half_height_mm: float, center: Point, side: int, limit: Limit
 ) -> tuple[Flank, ...]:
     """Where the nearest edge or corner of the rectangle touches the circle from outside."""
     x_mm, y_mm = center
@@ -96,7 +87,7 @@ def _outside(
 
 
 def _inside(
-    center: Point, radius_mm: float, side: int, half_height_mm: float, limit: Limit
+    radius_mm: float, half_height_mm: float, center: Point, side: int, limit: Limit
 ) -> tuple[Flank, ...]:
     """Where the upper and the lower far corner of the rectangle touch the circle from inside."""
     x_mm, y_mm = center
