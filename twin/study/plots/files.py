@@ -34,6 +34,8 @@ def write_figures(
     folder: Path,
     picture_format: PictureFormat = "png",
     demands: Demands | None = None,
+    *,
+    dots_per_inch: int = 300,
 ) -> Iterator[Path]:
     """Draw every figure into a folder, which is made if it is not there; yields each file.
 
@@ -50,6 +52,11 @@ def write_figures(
         with printed_page():
             figure = draw(geometry, demands or Demands())
             figure.savefig(
-                path, format=picture_format, metadata=metadata, bbox_inches="tight", pad_inches=0.04
+                path,
+                format=picture_format,
+                dpi=dots_per_inch,
+                metadata=metadata,
+                bbox_inches="tight",
+                pad_inches=0.04,
             )
         yield path

@@ -17,9 +17,6 @@ from twin.study.plots.style import SQUARE, legend_below, new_figure, wall_axes
 from twin.study.plots.workspace import draw_arcs, fill_region
 from twin.workspace import Measure, measure_rows, reachable_region
 
-HEIGHTS = 2001
-"""Rows among which the flattest parallelogram is looked for."""
-
 
 @dataclass(frozen=True, slots=True)
 class Posture:
@@ -33,14 +30,13 @@ class Posture:
 
 def singular_postures(geometry: RobotGeometry) -> tuple[Posture, ...]:
     """The postures of the three kinds of singularity, as far within the strokes as can be."""
-    length = geometry.leg_length_mm
-    low, high = max(geometry.e1y_mm, geometry.e2y_mm), min(geometry.e1y_mm, geometry.e2y_mm)
+    upright_y = min(geometry.e1y_mm, geometry.e2y_mm) + geometry.leg_length_mm
     folded_y = _folded_height(geometry)
-    flattest_y, flattest = _flattest_parallelogram(geometry, low, high + length)
-    kind = "no flat one exists; the flattest" if flattest > 1e-6 else "flat"
+    flattest_y, flattest = _flattest_parallelogram(geometry)
+    kind = "no flat one exists; the flattest" if flattest > 1e-9 else "flat"
     return (
         _posture(geometry, "(a) Parallel: legs in line", folded_y),
-        _posture(geometry, "(b) Serial: leg perpendicular to the rail", high + length),
+        _posture(geometry, "(b) Serial: leg perpendicular to the rail", upright_y),
         _posture(
             geometry,
             f"(c) Parallelogram: {kind}",
@@ -103,12 +99,18 @@ def _folded_height(geometry: RobotGeometry) -> float:
     return 0.5 * (geometry.e1y_mm + geometry.e2y_mm)
 
 
-def _flattest_parallelogram(
-    geometry: RobotGeometry, low_mm: float, high_mm: float
-) -> tuple[float, float]:
-    """Height of V where the parallelogram is flattest, and the sine of its angle there."""
-    y_mm = np.linspace(low_mm, high_mm, HEIGHTS)
+def _flattest_parallelogram(geometry: RobotGeometry) -> tuple[float, float]:
+    """Height of V where the parallelogram is flattest, and the sine of its angle there.
+
+    That sine is sin(phi - atan(e_py / (L3/2))) without its sign, with phi the angle of the left
+    leg: it is least where it vanishes, or else at one end of the heights.
+    """
+    half_mm, e_py_mm = 0.5 * geometry.platform_width_mm, geometry.e_py_mm
+    bar_mm = math.hypot(half_mm, e_py_mm)
+    low_mm = max(geometry.e1y_mm, geometry.e2y_mm)
+    high_mm = min(geometry.e1y_mm, geometry.e2y_mm) + geometry.leg_length_mm
+    flat_mm = geometry.e1y_mm + geometry.leg_length_mm * e_py_mm / bar_mm
+    y_mm = np.array([low_mm, high_mm, min(max(flat_mm, low_mm), high_mm)])
     area = measure_rows(geometry, Measure.PARALLELOGRAM_AREA, y_mm)
-    bar_mm = math.hypot(0.5 * geometry.platform_width_mm, geometry.e_py_mm)
     row = int(np.nanargmin(area))
     return float(y_mm[row]), float(area[row]) / (geometry.leg_length_mm * bar_mm)

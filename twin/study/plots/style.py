@@ -73,7 +73,6 @@ _SETTINGS: dict[RcKeyType, Any] = {
     "legend.frameon": False,
     "lines.solid_capstyle": "round",
     "figure.dpi": 100,
-    "savefig.dpi": 300,
     "svg.fonttype": "path",  # so that the picture needs no font where it is opened
     "svg.hashsalt": "plugpilot",  # so that the same picture is the same file
 }
