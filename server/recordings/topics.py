@@ -60,7 +60,9 @@ class InsertionRecord(Record):
 
     depth_mm: float = Field(description="Plug tip behind the socket's face")
     force_n: float = Field(description="Measured")
-    expected_n: float = Field(description="Of a good insertion or withdrawal")
+    expected_n: float = Field(
+        description="Of a good insertion; on the way out the strongest pull that is usual"
+    )
     low_n: float = Field(description="Expected minus two standard deviations")
     high_n: float = Field(description="Expected plus two standard deviations")
 
