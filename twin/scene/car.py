@@ -102,11 +102,9 @@ def _levels(theta_rad: float, per_span: int = 2) -> Points:
     return smooth
 
 
-def _plan(per_span: int = 2) -> Points:
+def _plan() -> Points:
     """The plan from the car's right to its left, flat across the patch."""
-    half = rounded_curve(_PLAN, per_span)
-    half[half[:, 0] <= _PLAN[1, 0], 1] = 0.0
-    return np.concatenate([half[:0:-1] * (-1, 1), half])
+    return np.concatenate([_PLAN[:0:-1] * (-1, 1), _PLAN])
 
 
 def _skin(levels: Points, plan: Points, *, outwards_mm: float = 0.0) -> Points:
@@ -136,7 +134,7 @@ def _parted(mesh: Mesh) -> tuple[Mesh, Mesh]:
 
 def _nose(theta_rad: float, per_span: int = 2) -> Mesh:
     """The painted body without the rectangle of the patch."""
-    levels, plan = _levels(theta_rad, per_span), _plan(per_span)
+    levels, plan = _levels(theta_rad, per_span), _plan()
     low, high = (int(np.argmin(np.abs(levels[:, 0] - y))) for y in (-150.0, 150.0))
     left, right = (int(np.argmin(np.abs(plan[:, 0] - s * _PLAN[1, 0]))) for s in (-1, 1))
     skin = _skin(levels, plan)
@@ -186,8 +184,8 @@ def _upright_to_socket(mesh: Mesh, theta_rad: float) -> Mesh:
 
 def body(theta_rad: float) -> list[Part]:
     """Painted body, glass, lamps and grille in the frame of a socket tilted by theta."""
-    windows = _surface(_skin(rounded_curve(_WINDOWS, 1), _plan(1)))
-    roof = _surface(_skin(rounded_curve(_ROOF, 1), _plan(1)))
+    windows = _surface(_skin(rounded_curve(_WINDOWS, 1), _plan()))
+    roof = _surface(_skin(rounded_curve(_ROOF, 1), _plan()))
     front, rear = _parted(_nose(theta_rad))
     parts: list[Part] = [(front, PAINT), (_patch(theta_rad), PAINT)]
     parts += [(rear, PAINT_FADING), (roof, PAINT_FADING), (windows, GLASS_FADING)]
@@ -220,8 +218,8 @@ def inlet() -> list[Part]:
     return [*parts, (arm, STEEL)]
 
 
-def wheels() -> list[Part]:
-    """Both front wheels; origin on the floor below the socket, z into the car."""
+def wheel() -> list[Part]:
+    """One front wheel in its arch; origin its middle, x along the axle out of the car."""
     tyre = lathe(
         [
             (0.0, 20.0),
@@ -239,19 +237,15 @@ def wheels() -> list[Part]:
     opening[:, 1] = np.maximum(opening[:, 1], -110.0)
     arch = plate(opening, 3.0, chamfer_mm=1.0)
     hub = plate(circle(34.0, 12), 18.0, chamfer_mm=4.0)
-    parts: list[Part] = []
-    for side in (-1, 1):
-        # The lathe's z axis becomes the wheel's axle, pointing out of the car.
-        out = np.array([[0.0, 0.0, side], [0.0, 1.0, 0.0], [-side, 0.0, 0.0]])
-        at = (side * WHEEL_X, WHEEL_RADIUS, WHEEL_Z)
-        pieces: list[tuple[Mesh, Material]] = [
-            (tyre.moved((0, 0, -WHEEL_WIDTH / 2)), RUBBER),
-            (rim.moved((0, 0, WHEEL_WIDTH / 2 - 4)), STEEL),
-            (hub.moved((0, 0, WHEEL_WIDTH / 2 + 2)), ANTHRACITE),
-            (arch.moved((0, 0, WHEEL_WIDTH / 2 - 12)), PLASTIC),
-        ]
-        parts += [(mesh.turned(out).moved(at), material) for mesh, material in pieces]
-    return parts
+    # The lathe's z axis becomes the wheel's axle.
+    out = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+    pieces: list[Part] = [
+        (tyre.moved((0, 0, -WHEEL_WIDTH / 2)), RUBBER),
+        (rim.moved((0, 0, WHEEL_WIDTH / 2 - 4)), STEEL),
+        (hub.moved((0, 0, WHEEL_WIDTH / 2 + 2)), ANTHRACITE),
+        (arch.moved((0, 0, WHEEL_WIDTH / 2 - 12)), PLASTIC),
+    ]
+    return [(mesh.turned(out), material) for mesh, material in pieces]
 
 
 def label() -> list[Part]:

@@ -31,7 +31,12 @@ class CarNodes:
         r = plug_parts.CAVITY_RADIUS + 13.0
         ring = lathe([(r + 1, -2), (r + 5, -5), (r + 9, -2), (r + 9, 3)], count=24)
         self.ring = add_signal(scene, "/car/ring", ring, IDLE)
-        self.wheels = add_part(scene, "/wheels", car.wheels())
+        self.wheels = add_pivot(scene, "/wheels")
+        up, back = car.WHEEL_RADIUS, car.WHEEL_Z
+        half_turn = turn((0.0, 1.0, 0.0), math.pi)
+        add_part(scene, "/wheels/left", car.wheel(), at_mm=(car.WHEEL_X, up, back))
+        right = (-car.WHEEL_X, up, back)
+        add_part(scene, "/wheels/right", car.wheel(), at_mm=right, wxyz=half_turn)
         self.label = add_part(scene, "/label", car.label())
 
     def show(self, state: TwinState) -> None:

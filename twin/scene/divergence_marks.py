@@ -8,16 +8,17 @@ from dataclasses import dataclass
 from viser import FrameHandle, SceneApi
 
 from twin.scene.frames import Vector
-from twin.scene.materials import Rgb
-from twin.scene.nodes import add_label, add_pivot, add_signal, place, set_visible
+from twin.scene.materials import Material
+from twin.scene.nodes import add_label, add_part, add_pivot, place, set_visible
 from twin.scene.shapes import Mesh, lathe
 from twin.scene.state import TwinState
 
-ALARM: Rgb = (255, 38, 62)
+ALARM = Material("alarm", (255, 38, 62), roughness=0.6, glow=0.6)
 
 _PULSES_PER_S = 0.8
 _PULSE = 0.10
-_TUBE_MM = 4.0
+_TUBE_MM, _RADIUS_MM = 4.0, 60.0
+"""Of the one ring that is sent; its nodes scale it, so that a phone downloads it once."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +74,8 @@ class DivergenceMarks:
         for ring in _RINGS:
             pivot = add_pivot(scene, ring.name, visible=False)
             place(pivot, ring.at_mm)
-            mesh = add_signal(scene, f"{ring.name}/ring", _torus(ring.radius_mm), ALARM)
+            mesh = add_part(scene, f"{ring.name}/ring", [(_torus(), ALARM)], shadow=False)
+            mesh.scale = ring.radius_mm / _RADIUS_MM
             label = add_label(scene, f"{ring.name}/word", ring.word)
             place(label, (0.0, ring.radius_mm + 12.0, 0.0))
             self.rings[ring.name] = pivot
@@ -88,14 +90,14 @@ class DivergenceMarks:
     def animate(self, time_s: float) -> None:
         """Lets the visible rings pulse; sends nothing while there is none."""
         scale = 1 + _PULSE * math.sin(2 * math.pi * _PULSES_PER_S * time_s)
-        for _, pivot, mesh in self._pulsing:
+        for ring, pivot, mesh in self._pulsing:
             if pivot.visible:
-                mesh.scale = round(scale, 2)
+                mesh.scale = round(scale * ring.radius_mm / _RADIUS_MM, 2)
 
 
-def _torus(radius_mm: float) -> Mesh:
-    steps = 10
+def _torus() -> Mesh:
+    steps = 6
     tube = [2 * math.pi * i / steps for i in range(steps + 1)]
     return lathe(
-        [(radius_mm + _TUBE_MM * math.cos(a), _TUBE_MM * math.sin(a)) for a in tube], count=48
+        [(_RADIUS_MM + _TUBE_MM * math.cos(a), _TUBE_MM * math.sin(a)) for a in tube], count=32
     )

@@ -158,7 +158,6 @@ class TwinHost:
             now = time.monotonic()
             self._watching = viser_server.watchers(server)
             if not self._watching:
-                viser_server.compact(server)
                 self._stop.wait(_IDLE_STEP_S)
                 continue
             self._changed.clear()

@@ -139,7 +139,7 @@ EVERY_PART: dict[str, Callable[[RobotGeometry], list[Part]]] = {
     "plug": lambda _: plug_parts.plug(),
     "body": lambda g: car.body(g.theta_rad),
     "inlet": lambda _: car.inlet(),
-    "wheels": lambda _: car.wheels(),
+    "wheel": lambda _: car.wheel(),
     "label": lambda _: car.label(),
 }
 
