@@ -110,6 +110,11 @@ class Supervisor:
         """Why there is no link to the motion board, in the driver's words."""
         return self._link.trouble
 
+    @property
+    def plan(self) -> MotionPlan | None:
+        """The plan of the motion under way, None while there is none."""
+        return self._motion.plan if self._motion else None
+
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change, telemetry included."""
         self._listeners.add(listener)
