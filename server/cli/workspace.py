@@ -44,7 +44,8 @@ class PicturesNotWrittenError(PlugPilotError):
     "folder",
     metavar="DIR",
     type=click.Path(path_type=Path),
-    help="Draw workspace, placements, deflection, singularities and maps into a folder.",
+    help="Draw the figures into a folder: workspace, placements, Lame curves, deflection, "
+    "singular postures and maps.",
 )
 @click.option(
     "--format",

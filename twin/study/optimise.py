@@ -202,8 +202,10 @@ def optimise(
     counter = _Counter(on_step, GENERATIONS * (1 + len(DROPPABLE)))
     search = _Search(designer, objective, seed, counter.step)
     fixed = {name: excess for name, excess in designer.fixed_excess().items() if excess > 0}
+    if fixed:
+        raise _no_design(fixed, {})
     found = search.run()
-    missed = fixed | {name: float(e[0]) for name, e in found.excess.items() if e[0] > 0}
+    missed = {name: float(e[0]) for name, e in found.excess.items() if e[0] > 0}
     without = {name: search.run(frozenset({name})) for name in DROPPABLE}
     counter.finish()
     if missed:
@@ -263,12 +265,10 @@ def _with_box(base: RobotGeometry, demands: Demands) -> RobotGeometry:
 
 def _no_design(missed: dict[Demand, float], without: dict[Demand, Candidates]) -> NoDesignError:
     worst_first = dict(sorted(missed.items(), key=lambda item: -item[1]))
-    slide = set(missed) & {Demand.SLIDE_TRAVEL, Demand.SLIDE_FORCE}
     binding = tuple(
         name
         for name, other in without.items()
-        if not slide
-        and all(float(e[0]) <= 0 for demand, e in other.excess.items() if demand is not name)
+        if all(float(e[0]) <= 0 for demand, e in other.excess.items() if demand is not name)
     )
     lacking = ", ".join(f"{name} by {100 * excess:.1f} %" for name, excess in worst_first.items())
     msg = f"no robot within the bounds meets the demands; the nearest one exceeds {lacking}"

@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 from server.cli import main
 from server.config import load_settings
 from twin.geometry import RobotGeometry
+from twin.study.plots.files import FIGURES
 from twin.study.report import StudyReport
 from twin.study.search_report import SearchReport
 
@@ -160,12 +161,13 @@ def test_a_file_that_is_not_there() -> None:
     assert "none.toml cannot be read (No such file" in result.stderr
 
 
-def test_pictures_are_written_and_named() -> None:
+def test_pictures_are_written_and_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    two = {name: FIGURES[name] for name in ("workspace", "placements")}  # drawing takes its time
+    monkeypatch.setattr("twin.study.plots.files.FIGURES", two)
     result = run("--plot", "figures", "--format", "svg", "--json")
     assert result.exit_code == 0
-    names = ["workspace", "placements", "deflection", "singularities", "maps"]
-    assert result.stderr.splitlines() == [f"wrote figures/{name}.svg" for name in names]
-    for name in names:
+    assert result.stderr.splitlines() == [f"wrote figures/{name}.svg" for name in two]
+    for name in two:
         text = Path(f"figures/{name}.svg").read_text(encoding="utf-8")
         assert text.startswith("<?xml")
         assert text.count("<path") > 50

@@ -17,6 +17,7 @@ from twin.geometry import RegularBox, RobotGeometry
 from twin.study.demands import Demands
 from twin.study.plots.deflection import draw_deflection
 from twin.study.plots.files import FIGURES, write_figures
+from twin.study.plots.lame import COLOURS, draw_lame, lame_curve
 from twin.study.plots.maps import draw_maps, map_panels
 from twin.study.plots.placements import draw_placements
 from twin.study.plots.singular import draw_singular, singular_postures
@@ -78,6 +79,24 @@ def test_the_placements_carry_the_coordinates_of_their_corners() -> None:
 def test_no_placement_is_said_in_words() -> None:
     robot = RobotGeometry(regular_box=RegularBox(width_mm=400, height_mm=400))
     assert "It fits nowhere." in texts_of(draw_placements(robot))
+
+
+def test_the_lame_curves_are_what_their_equation_says() -> None:
+    x, y = lame_curve(650, 335, 100, 6).T
+    assert ((x - 650) ** 6 + (y - 335) ** 6) / 100**6 == pytest.approx(1)
+    figure = draw_lame(DEFAULT)
+    assert "square that fits: 224.0 mm" in texts_of(figure)
+    assert "claimed by $n = 6$: 248.2 mm" in texts_of(figure)
+    # in the right panel the curves end at the workspace: they touch it and do not leave it
+    region = reachable_region(DEFAULT)
+    for colour in COLOURS:
+        (curve,) = lines_of(figure.axes[1], colour)
+        shrunk = (curve - [650, 335]) * 0.9999 + [650, 335]
+        grown = (curve - [650, 335]) * 1.002 + [650, 335]
+        assert region.contains_many(shrunk).all()
+        assert not region.contains_many(grown).all()
+    outside = RobotGeometry(regular_box=RegularBox(center_x_mm=1100))
+    assert "The centre is out of reach." in texts_of(draw_lame(outside))
 
 
 def test_the_nine_points_carry_number_and_value() -> None:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from twin.geometry import RobotGeometry
 from twin.study.demands import Demands
 from twin.study.plots.deflection import draw_deflection
+from twin.study.plots.lame import draw_lame
 from twin.study.plots.maps import draw_maps
 from twin.study.plots.placements import draw_placements
 from twin.study.plots.singular import draw_singular
@@ -22,6 +23,7 @@ PictureFormat = Literal["png", "svg"]
 FIGURES: dict[str, Callable[[RobotGeometry, Demands], Figure]] = {
     "workspace": lambda geometry, _: draw_workspace(geometry),
     "placements": lambda geometry, _: draw_placements(geometry),
+    "lame": lambda geometry, _: draw_lame(geometry),
     "deflection": lambda geometry, _: draw_deflection(geometry),
     "singularities": lambda geometry, _: draw_singular(geometry),
     "maps": draw_maps,
