@@ -50,12 +50,6 @@ class Candidates:
     excess: dict[Demand, Array]
     """Relative excess over each demand, at most 0 where it is met."""
 
-    @property
-    def violation(self) -> Array:
-        """Sum of what is lacking, 0 where all demands are met."""
-        lacking: Array = np.sum([np.maximum(e, 0.0) for e in self.excess.values()], axis=0)
-        return lacking
-
 
 class _Legs(NamedTuple):
     """Lengths (N,), and the legs' components in each row (N, ROWS) [mm]."""
@@ -184,7 +178,7 @@ class Designer:
         return RobotGeometry.model_validate({**kept, **changed})
 
     def start(self) -> Array:
-        """The searched lengths of the robot that the search starts from, shape (N,) [mm]."""
+        """The searched lengths of the robot that the search starts from, in their order [mm]."""
         y_mm = self.base.regular_box.center_y_mm
         values = {name: getattr(self.base, name, y_mm) for name in SEARCHED}
         return np.array([values[name] for name in SEARCHED])

@@ -56,8 +56,9 @@ def draw_singular(geometry: RobotGeometry) -> Figure:
         _panel(axes, geometry, posture)
         fill_region(axes, region)
         draw_arcs(axes, region, named=number == 0)
-        low_mm = min(0.0, geometry.e_py_mm) - 90
-        axes.set_ylim(low_mm, 1.08 * geometry.leg_length_mm + geometry.e1y_mm)
+        low_mm = min(geometry.e1y_mm + min(geometry.e_py_mm, 0.0), geometry.e2y_mm)
+        high_mm = max(geometry.e1y_mm, geometry.e2y_mm) + geometry.leg_length_mm
+        axes.set_ylim(low_mm - 90, high_mm + 40)
     for axes in panels[:-1]:
         axes.set_xlabel("")
     legend_below(figure, columns=2)
