@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from viser import FrameHandle, SceneApi
 
-from twin.scene.frames import Vector
+from twin.scene.frames import UPRIGHT, Quaternion, Vector, turn
 from twin.scene.materials import Material
-from twin.scene.nodes import add_label, add_part, add_pivot, place, set_visible
+from twin.scene.nodes import ORIGIN, add_label, add_part, add_pivot, place, set_visible
 from twin.scene.shapes import Mesh, lathe
 from twin.scene.state import TwinState
 
@@ -17,8 +17,8 @@ ALARM = Material("alarm", (255, 38, 62), roughness=0.6, glow=0.6)
 
 _PULSES_PER_S = 0.8
 _PULSE = 0.10
-_TUBE_MM, _RADIUS_MM = 4.0, 60.0
-"""Of the one ring that is sent; its nodes scale it, so that a phone downloads it once."""
+_TUBE_MM, _RADIUS_MM = 6.0, 60.0
+_AROUND_Y = turn((1.0, 0.0, 0.0), math.pi / 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,8 @@ class _Ring:
         quantities: Of `twin.divergence.Quantity` for which it is shown.
         radius_mm: Of the ring.
         at_mm: Its middle in the part's frame.
+        wxyz: Its turn; without one its axis is the part's z.
+        word_at_mm: From its middle; apart from those of rings that may be shown with it.
     """
 
     name: str
@@ -38,30 +40,49 @@ class _Ring:
     quantities: frozenset[str]
     radius_mm: float
     at_mm: Vector
+    word_at_mm: Vector
+    wxyz: Quaternion = UPRIGHT
+
+
+def _around_carriage(name: str, quantity: str) -> _Ring:
+    return _Ring(
+        name,
+        "not in place",
+        frozenset({quantity}),
+        radius_mm=78.0,
+        at_mm=(0.0, 0.0, -102.0),
+        word_at_mm=(0.0, -70.0, 0.0),
+        wxyz=_AROUND_Y,
+    )
 
 
 _RINGS = (
-    _Ring(
-        "/robot/left_carriage/parted", "not in place", frozenset({"rho1"}), 62.0, (0.0, 0.0, -80.0)
-    ),
-    _Ring(
-        "/robot/right_carriage/parted", "not in place", frozenset({"rho2"}), 62.0, (0.0, 0.0, -80.0)
-    ),
+    _around_carriage("/robot/left_carriage/parted", "rho1"),
+    _around_carriage("/robot/right_carriage/parted", "rho2"),
     _Ring(
         "/robot/platform/plug/parted_place",
         "not in place",
         frozenset({"rho3", "set_point"}),
-        58.0,
-        (0.0, 0.0, -70.0),
+        radius_mm=56.0,
+        at_mm=(0.0, 0.0, -80.0),
+        word_at_mm=(0.0, -105.0, 0.0),
     ),
     _Ring(
         "/robot/platform/plug/parted_force",
         "unusual force",
         frozenset({"force"}),
-        48.0,
-        (0.0, 0.0, -12.0),
+        radius_mm=46.0,
+        at_mm=(0.0, 0.0, -14.0),
+        word_at_mm=(0.0, 105.0, 0.0),
     ),
-    _Ring("/car/parted", "has moved", frozenset({"socket"}), 66.0, (0.0, 0.0, -6.0)),
+    _Ring(
+        "/car/parted",
+        "has moved",
+        frozenset({"socket"}),
+        radius_mm=68.0,
+        at_mm=(0.0, 0.0, -6.0),
+        word_at_mm=(0.0, -140.0, 0.0),
+    ),
 )
 
 
@@ -76,8 +97,8 @@ class DivergenceMarks:
             place(pivot, ring.at_mm)
             mesh = add_part(scene, f"{ring.name}/ring", [(_torus(), ALARM)], shadow=False)
             mesh.scale = ring.radius_mm / _RADIUS_MM
-            label = add_label(scene, f"{ring.name}/word", ring.word)
-            place(label, (0.0, ring.radius_mm + 12.0, 0.0))
+            place(mesh, ORIGIN, ring.wxyz)
+            add_label(scene, f"{ring.name}/word", ring.word, at_mm=ring.word_at_mm)
             self.rings[ring.name] = pivot
             self._pulsing.append((ring, pivot, mesh))
 
@@ -96,7 +117,7 @@ class DivergenceMarks:
 
 
 def _torus() -> Mesh:
-    steps = 6
+    steps = 8
     tube = [2 * math.pi * i / steps for i in range(steps + 1)]
     return lathe(
         [(_RADIUS_MM + _TUBE_MM * math.cos(a), _TUBE_MM * math.sin(a)) for a in tube], count=32
