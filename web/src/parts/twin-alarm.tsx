@@ -10,6 +10,7 @@ export function TwinAlarm() {
       {found.length > 0 && (
         <section class="card">
           <h2>{words.twin.title}</h2>
+          <p>{words.twin.remedy}</p>
           <ul>
             {found.map((each) => (
               <li key={each.quantity}>
@@ -17,7 +18,6 @@ export function TwinAlarm() {
               </li>
             ))}
           </ul>
-          <p class="soft">{words.twin.remedy}</p>
         </section>
       )}
     </div>
