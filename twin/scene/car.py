@@ -49,6 +49,7 @@ PATCH_HALF_WIDTH, PATCH_HALF_HEIGHT = 190.0, 150.0
 WHEEL_RADIUS, WHEEL_WIDTH, WHEEL_X, WHEEL_Z = 305.0, 190.0, 765.0, 700.0
 LABEL_EDGE, LABEL_QUIET = 60.0, 7.2
 
+_SEAM = 1.5
 _FADE_FROM_Z, _FADE_TO_Z = 620.0, 1750.0
 
 # Height, foremost z and half width of each level; the nose's own tilt is added at the patch.
@@ -147,8 +148,11 @@ def _nose(theta_rad: float, per_span: int = 2) -> Mesh:
 
 
 def _patch(theta_rad: float) -> Mesh:
-    """The flat patch of the nose with a round hole for the inlet."""
-    w, h = PATCH_HALF_WIDTH, PATCH_HALF_HEIGHT
+    """The flat patch of the nose with a round hole for the inlet.
+
+    It is a little larger than its place, so that no light shows through the seam.
+    """
+    w, h = PATCH_HALF_WIDTH + _SEAM, PATCH_HALF_HEIGHT + _SEAM
     corner = math.atan2(h, w)
     special = [corner, math.pi - corner, math.pi + corner, 2 * math.pi - corner]
     angles = np.sort(np.concatenate([np.arange(40) * math.pi / 20, special]))

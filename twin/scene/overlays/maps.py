@@ -19,7 +19,7 @@ WORST_CONDITION = 6.0
 """Condition number from which the map is red: there the carriages move the platform six times
 better one way than the other."""
 
-_OPACITY = 0.72
+_OPACITY = 0.55
 _LEGEND_GAP = 70.0
 _POINT_MM = 12.0
 
