@@ -61,7 +61,7 @@ describe("earlier jobs", () => {
 
   test("offer what was recorded, and say where nothing was", async () => {
     await openHistory(RECORDED, { ...DONE, id: "b" });
-    const link = await screen.findByRole("link", { name: /Download the recording/ });
+    const link = await screen.findByRole("link", { name: /Download/ });
     expect(link.getAttribute("href")).toBe("/api/v1/jobs/a/recording");
     expect(link.textContent).toContain("1.5 MB");
     expect(screen.getAllByRole("button", { name: /Watch again/ })).toHaveLength(1);

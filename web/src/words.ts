@@ -208,7 +208,6 @@ export const words = {
     none: "Nothing yet.",
     watch: "Watch again",
     download: "Download",
-    downloadOf: (date: string): string => `Download the recording of ${date}`,
     notRecorded: "not recorded",
     cancelled: "Cancelled",
     failed: "Did not work",

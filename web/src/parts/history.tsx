@@ -70,9 +70,9 @@ function Row({ job }: { job: Job }) {
             class="button"
             href={`/api/v1/jobs/${encodeURIComponent(job.id)}/recording`}
             download=""
-            aria-label={say.downloadOf(date)}
           >
             {say.download} <span class="soft">{formatSize(recording.size_bytes)}</span>
+            <span class="unseen">, {date}</span>
           </a>
         </div>
       )}
