@@ -20,6 +20,7 @@ import time
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 
+import httpx
 import psutil
 
 from server.api.twin.page import build_page
@@ -153,6 +154,8 @@ async def main() -> None:
     added = (me.memory_info().rss - before) / 2**20
     print(json.dumps({"ready_s": round(ready_s, 2), "rss_added_mib": round(added, 1)}))
     async with _serve(host) as address:
+        async with httpx.AsyncClient() as client:  # packs the client, which is done once
+            (await client.get(f"http://{address}/twin/", timeout=60)).raise_for_status()
         await asyncio.sleep(2)
         cpu = sum(me.cpu_times()[:2])
         await asyncio.sleep(3)

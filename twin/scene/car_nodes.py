@@ -12,7 +12,7 @@ from twin.scene.frames import turn
 from twin.scene.materials import CHARGING, IDLE, PLUGGED, Rgb
 from twin.scene.nodes import add_part, add_pivot, add_signal, place, place_transform, set_visible
 from twin.scene.shapes import lathe
-from twin.scene.state import TwinState
+from twin.scene.state import Pose, TwinState
 
 
 class CarNodes:
@@ -23,6 +23,7 @@ class CarNodes:
 
     def __init__(self, scene: SceneApi, geometry: RobotGeometry) -> None:
         self._nominal = poses.nominal_socket(geometry)
+        self._shown: tuple[Pose | None, Pose | None] | None = None
         theta = geometry.theta_rad
         self.car = add_pivot(scene, "/car")
         self.body = add_part(scene, "/car/body", car.body(theta))
@@ -41,6 +42,13 @@ class CarNodes:
 
     def show(self, state: TwinState) -> None:
         """Moves the car and its label to where they were measured; lights the inlet's ring."""
+        self.ring.color = _ring_color(state)
+        measured = (state.T_base_socket, state.T_base_label)
+        if self._shown is not None and all(
+            new is old for new, old in zip(measured, self._shown, strict=True)
+        ):
+            return
+        self._shown = measured
         known = state.T_base_socket is not None
         T_socket = (
             self._nominal if state.T_base_socket is None else poses.upright(state.T_base_socket)
@@ -54,7 +62,6 @@ class CarNodes:
         place(self.wheels, (x, layers.FLOOR_Y, z), turn((0.0, 1.0, 0.0), heading_rad))
         T_label = state.T_base_label
         place_transform(self.label, poses.nominal_label(T_socket) if T_label is None else T_label)
-        self.ring.color = _ring_color(state)
 
 
 def _ring_color(state: TwinState) -> Rgb:

@@ -94,10 +94,14 @@ def set_visible(node: SceneNodeHandle, *, visible: bool) -> None:
         node.visible = visible
 
 
-def place(node: SceneNodeHandle, position_mm: Vector, wxyz: Quaternion = UPRIGHT) -> None:
-    """Moves a node in its parent's frame; sends nothing if it is there already."""
+def place(node: SceneNodeHandle, position_mm: Vector, wxyz: Quaternion | None = None) -> None:
+    """Moves a node in its parent's frame; sends nothing if it is there already.
+
+    Comparing costs as much as sending: leave the turn out for what never turns.
+    """
     node.position = metres(position_mm)
-    node.wxyz = wxyz
+    if wxyz is not None:
+        node.wxyz = wxyz
 
 
 def place_transform(node: SceneNodeHandle, transform: Pose) -> None:

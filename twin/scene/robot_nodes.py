@@ -74,7 +74,9 @@ class RobotNodes:
         slide = plug_parts.slide(layers.PLATFORM_FRONT_Z - reach, g.rho3.min_mm, g.rho3.max_mm)
         at = (0.0, rise, reach)
         add_part(scene, "/robot/platform/slide", slide, at_mm=at, wxyz=self._along_axis)
-        self.plug = add_part(scene, "/robot/platform/plug", plug_parts.plug())
+        self.plug = add_part(
+            scene, "/robot/platform/plug", plug_parts.plug(), wxyz=self._along_axis
+        )
         body = robot_parts.camera_body(mount.x_mm, mount.y_mm, mount.z_mm)
         add_part(scene, "/robot/platform/camera_body", body)
         camera = add_pivot(scene, "/robot/platform/camera")
@@ -82,7 +84,8 @@ class RobotNodes:
         add_frustum(scene, CAMERA.nodes[0], hfov_rad=hfov_rad, aspect=aspect)
         add_pivot(scene, GHOST.nodes[0])
         ghost = f"{GHOST.nodes[0]}/plug"
-        self.ghost = add_part(scene, ghost, plug_parts.outline_of_plug(), shadow=False)
+        outline = plug_parts.outline_of_plug()
+        self.ghost = add_part(scene, ghost, outline, wxyz=self._along_axis, shadow=False)
         self.cable = PlugCable(scene, room.cable_inlet_mm(g), cable)
 
     def show(self, state: TwinState) -> None:
@@ -129,7 +132,7 @@ class RobotNodes:
         place(self.bar_ec, pose.e, right)
         place(self.platform, pose.v)
         x, y, z = (float(p - v) for p, v in zip(pose.plug, pose.v, strict=True))
-        place(self.plug, (x, y, z), self._along_axis)
+        place(self.plug, (x, y, z))
         self.cable.hang_to(self.plug_point_mm(pose.plug, plug_parts.cable_outlet_mm()))
 
     def plug_point_mm(self, tip_mm: Vector, point_mm: Points) -> Points:
@@ -144,5 +147,6 @@ class RobotNodes:
         parted_mm = 0.0
         if measured is not None and commanded is not None:
             parted_mm = float(np.linalg.norm(np.subtract(commanded.plug, measured.plug)))
-            place(self.ghost, commanded.plug, self._along_axis)
+            if parted_mm >= PARTED_MM:
+                place(self.ghost, commanded.plug)
         set_visible(self.ghost, visible=parted_mm >= PARTED_MM)

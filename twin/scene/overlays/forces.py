@@ -11,7 +11,7 @@ from viser import SceneApi
 from twin.geometry import RobotGeometry
 from twin.kinematics.errors import KinematicsError
 from twin.scene import plug_parts
-from twin.scene.frames import Quaternion, Vector, turn
+from twin.scene.frames import Quaternion, turn
 from twin.scene.glb import Part
 from twin.scene.materials import FORCE, PULLING, Material
 from twin.scene.nodes import add_label, add_part, add_pivot, place, set_text, set_visible
@@ -27,6 +27,8 @@ LEAST_FORCE_N = 3.0
 ARROW_MM_PER_N = 2.0
 
 _WIDTH = 0.006
+_SAME_PULL_N = 0.1
+"""A pull that changed less leaves its arrow as it is drawn."""
 _LABEL_BEYOND_MM = 14.0
 _TO_THE_RIGHT: Quaternion = turn((0.0, 1.0, 0.0), np.pi / 2)
 
@@ -75,7 +77,8 @@ class ForceNodes:
         add_pivot(scene, PULL.nodes[0], visible=False)
         self.cable = ForceArrow(scene, f"{PULL.nodes[0]}/cable", PULLING, "cable")
         x, y, z = plug_parts.cable_outlet_mm()
-        self._outlet: Vector = (float(x), float(y), float(z))
+        place(self.cable.pivot, (float(x), float(y), float(z)))
+        self._shown_pull_n: NDArray[np.float64] | None = None
         self.left = ForceArrow(scene, f"{on_left}/rho1", FORCE, "rho1")
         self.right = ForceArrow(scene, f"{on_right}/rho2", FORCE, "rho2")
         above = (0.0, 55.0, 0.0)
@@ -97,10 +100,17 @@ class ForceNodes:
         self._show_pull(cable_pull_n)
 
     def _show_pull(self, pull_n: NDArray[np.float64] | None) -> None:
-        size = 0.0 if pull_n is None else float(np.linalg.norm(pull_n))
+        if pull_n is None:
+            self.cable.show(0.0)
+            self._shown_pull_n = None
+            return
+        before = self._shown_pull_n
+        if before is not None and np.abs(pull_n - before).max() < _SAME_PULL_N:
+            return
+        self._shown_pull_n = pull_n
+        size = float(np.linalg.norm(pull_n))
         self.cable.show(size)
-        if pull_n is not None and size >= LEAST_FORCE_N:
-            place(self.cable.pivot, self._outlet, self._towards(pull_n / size))
+        self.cable.pivot.wxyz = self._towards(pull_n / size)
 
     def _towards(self, direction: NDArray[np.float64]) -> Quaternion:
         """Turn of an arrow in the plug's frame to a direction in the base frame."""
