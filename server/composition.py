@@ -114,7 +114,9 @@ async def running(
         camera = CameraFeed(devices.camera, CAMERA_PERIOD_S * speed)
         stack.push_async_callback(camera.close)
         live = LiveHub(PUSH_PERIOD_S * speed)
-        divergence = DivergenceWatcher(supervisor, runner, eye, settings.divergence)
+        divergence = DivergenceWatcher(
+            supervisor, runner, eye, settings.divergence.for_clock(speed)
+        )
         stack.push_async_callback(divergence.close)
 
         def station_read() -> None:

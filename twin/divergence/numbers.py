@@ -139,3 +139,16 @@ class DivergenceNumbers(Numbers):
     time: TimeNumbers = Field(default_factory=TimeNumbers)
     socket: SocketNumbers = SocketNumbers()
     alarm: AlarmNumbers = AlarmNumbers()
+
+    def for_clock(self, speed: float) -> Self:
+        """The same expectations of a simulation that runs ``speed`` times as fast as the wall.
+
+        What a phase needs besides its motions is computing and writing, and that takes so much
+        longer in the simulation's own time.
+        """
+        factor = max(speed, 1.0)
+        phases = {
+            name: PhaseTime(typical_s=usual.typical_s * factor, sigma_s=usual.sigma_s * factor)
+            for name, usual in self.time.phases.items()
+        }
+        return self.model_copy(update={"time": TimeNumbers(phases=phases)})

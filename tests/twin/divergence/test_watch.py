@@ -93,6 +93,15 @@ def test_a_socket_that_seems_to_move_is_told_at_once_and_ends_with_the_job() -> 
     assert [each.began for each in model.begin_job()] == [False]
 
 
+def test_a_fast_simulation_gets_more_time_for_what_is_computed() -> None:
+    numbers = DivergenceNumbers()
+    fast, slow = numbers.for_clock(20.0), numbers.for_clock(0.5)
+    usual = numbers.time.phases["aligning"]
+    assert fast.time.phases["aligning"].sigma_s == 20 * usual.sigma_s
+    assert fast.tracking == numbers.tracking
+    assert slow == numbers
+
+
 def test_every_quantity_has_a_title() -> None:
     titles = [title(quantity) for quantity in Quantity]
     assert len(set(titles)) == len(Quantity)
