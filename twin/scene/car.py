@@ -50,7 +50,10 @@ WHEEL_RADIUS, WHEEL_WIDTH, WHEEL_X, WHEEL_Z = 305.0, 190.0, 765.0, 700.0
 LABEL_EDGE, LABEL_QUIET = 60.0, 7.2
 
 _SEAM = 1.5
-_FADE_FROM_Z, _FADE_TO_Z = 620.0, 1750.0
+_FADE_FROM_Z, _FADE_TO_Z = 920.0, 1850.0
+_FRONT_TO_Y, _FRONT_TO_PART = 315.0, 0.993
+"""Height and part of the half width up to which the body is opaque: none of it lies farther
+back than where it begins to fade."""
 
 # Height, foremost z and half width of each level; the nose's own tilt is added at the patch.
 _LEVELS = np.array(
@@ -123,18 +126,12 @@ def _surface(points: Points) -> Mesh:
     return grid(mirrored, np.asarray(t * t * (3 - 2 * t)))
 
 
-def _parted(mesh: Mesh) -> tuple[Mesh, Mesh]:
-    """The opaque front of a skin and its fading rear.
+def _nose(theta_rad: float, per_span: int = 2) -> tuple[Mesh, Mesh]:
+    """The painted body without the rectangle of the patch: its opaque front, its fading rear.
 
-    Transparent surfaces are not sorted against each other, so only what fades may be one.
+    Transparent surfaces are not sorted against each other, so only what fades may be one. The
+    two meet along straight lines of the body, as panels do: their shading does not run on.
     """
-    front = mesh.vertices_mm[mesh.faces][..., 2].max(axis=1) <= _FADE_FROM_Z
-    opaque = Mesh(mesh.vertices_mm, mesh.faces[front])
-    return opaque, Mesh(mesh.vertices_mm, mesh.faces[~front], alpha=mesh.alpha)
-
-
-def _nose(theta_rad: float, per_span: int = 2) -> Mesh:
-    """The painted body without the rectangle of the patch."""
     levels, plan = _levels(theta_rad, per_span), _plan()
     low, high = (int(np.argmin(np.abs(levels[:, 0] - y))) for y in (-150.0, 150.0))
     left, right = (int(np.argmin(np.abs(plan[:, 0] - s * _PLAN[1, 0]))) for s in (-1, 1))
@@ -144,7 +141,13 @@ def _nose(theta_rad: float, per_span: int = 2) -> Mesh:
     cells = np.ones((len(levels) - 1, columns - 1), dtype=bool)
     # The skin is mirrored, which swaps the sides of a symmetric hole.
     cells[low:high, columns - 1 - right : columns - 1 - left] = False
-    return Mesh(whole.vertices_mm, whole.faces[np.tile(cells.ravel(), 2)], alpha=whole.alpha)
+    reach = np.maximum(np.abs(plan[1:, 0]), np.abs(plan[:-1, 0]))
+    near = np.outer(levels[1:, 0] <= _FRONT_TO_Y, reach <= _FRONT_TO_PART)
+    front, rear = (np.tile((cells & part).ravel(), 2) for part in (near, ~near))
+    return (
+        Mesh(whole.vertices_mm, whole.faces[front]),
+        Mesh(whole.vertices_mm, whole.faces[rear], alpha=whole.alpha),
+    )
 
 
 def _patch(theta_rad: float) -> Mesh:
@@ -190,7 +193,7 @@ def body(theta_rad: float) -> list[Part]:
     """Painted body, glass, lamps and grille in the frame of a socket tilted by theta."""
     windows = _surface(_skin(rounded_curve(_WINDOWS, 1), _plan()))
     roof = _surface(_skin(rounded_curve(_ROOF, 1), _plan()))
-    front, rear = _parted(_nose(theta_rad))
+    front, rear = _nose(theta_rad)
     parts: list[Part] = [(front, PAINT), (_patch(theta_rad), PAINT)]
     parts += [(rear, PAINT_FADING), (roof, PAINT_FADING), (windows, GLASS_FADING)]
     for side in (-1, 1):
@@ -204,8 +207,8 @@ def body(theta_rad: float) -> list[Part]:
 
 def silhouette(theta_rad: float) -> list[Part]:
     """The front of the body alone: shown when the car's place is a guess."""
-    front, _ = _parted(_nose(theta_rad, per_span=1))
-    whole = merged([Mesh(front.vertices_mm, front.faces), _patch(theta_rad)])
+    front, _ = _nose(theta_rad, per_span=1)
+    whole = merged([front, _patch(theta_rad)])
     return [(_upright_to_socket(whole, theta_rad), GUESSED)]
 
 
