@@ -19,6 +19,8 @@ from server.config.errors import ConfigurationError
 from server.config.settings import Settings
 from server.control.jog import DEAD_MAN_S, Jog
 from server.control.supervisor import Supervisor
+from server.divergence import DivergenceWatcher
+from server.divergence.report import twin_report
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
@@ -26,6 +28,9 @@ from server.live.station_watch import StationWatch
 from server.live.twin_feed import feed_twin
 from server.live.views import robot_view, station_view
 from server.localisation.eye import Eye
+from server.recordings.playbacks import Playbacks
+from server.recordings.recorder import Recorder
+from server.recordings.store import RecordingStore
 from server.schema.live import Service
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
@@ -95,15 +100,16 @@ async def running(
         )
         if devices.followed is not None:
             _let_follow(devices.followed.follower, supervisor)
+        eye = Eye(
+            devices.camera,
+            settings.camera.optics,
+            settings.camera.mount,
+            settings.geometry,
+            supervisor.telemetry,
+        )
         runner = JobRunner(
             supervisor=supervisor,
-            eye=Eye(
-                devices.camera,
-                settings.camera.optics,
-                settings.camera.mount,
-                settings.geometry,
-                supervisor.telemetry,
-            ),
+            eye=eye,
             station=devices.station,
             jobs=jobs,
             vehicles=vehicles,
@@ -113,6 +119,30 @@ async def running(
         camera = CameraFeed(devices.camera, CAMERA_PERIOD_S * speed)
         stack.push_async_callback(camera.close)
         live = LiveHub(PUSH_PERIOD_S * speed)
+        divergence = DivergenceWatcher(
+            supervisor, runner, eye, settings.divergence.for_clock(speed)
+        )
+        stack.push_async_callback(divergence.close)
+
+        def station_read() -> None:
+            recorder.station_changed()
+            live.changed("station")
+
+        station = StationWatch(devices.station, STATION_PERIOD_S * speed, station_read)
+        recordings = RecordingStore(folder, settings.recordings)
+        recorder = Recorder(
+            store=recordings,
+            settings=settings,
+            calendar=calendar,
+            supervisor=supervisor,
+            runner=runner,
+            eye=eye,
+            station=station,
+            divergence=divergence,
+            finished=lambda _: live.changed("job"),
+        )
+        recorder.start()
+        stack.push_async_callback(recorder.close)
         services = Services(
             settings=settings,
             calendar=calendar,
@@ -123,11 +153,12 @@ async def running(
             supervisor=supervisor,
             jog=Jog(supervisor, DEAD_MAN_S * speed),
             runner=runner,
-            station=StationWatch(
-                devices.station, STATION_PERIOD_S * speed, lambda: live.changed("station")
-            ),
+            station=station,
             camera=camera,
             live=live,
+            divergence=divergence,
+            recordings=recordings,
+            playbacks=Playbacks(recordings, settings.recordings),
             twin=twin,
             garage=devices.garage,
         )
@@ -212,7 +243,7 @@ def _show(services: Services) -> None:
     """Connect what changes to those who watch."""
     live, supervisor, runner = services.live, services.supervisor, services.runner
     live.add("robot", lambda: robot_view(supervisor, runner.socket, services.calendar))
-    live.add("job", lambda: runner.newest)
+    live.add("job", lambda: runner.newest and services.recordings.show(runner.newest))
     live.add(
         "station",
         lambda: station_view(
@@ -223,6 +254,8 @@ def _show(services: Services) -> None:
         ),
     )
     live.add("service", lambda: _service(services))
+    live.add("twin", lambda: twin_report(services.divergence.parted, services.calendar))
+    services.divergence.listen(lambda _: live.changed("twin", urgent=True))
 
     shown: list[object] = [None]
 

@@ -9,10 +9,13 @@ from drivers.simulator.garage import SimulatedGarage
 from server.config.settings import Settings
 from server.control.jog import Jog
 from server.control.supervisor import Supervisor
+from server.divergence import DivergenceWatcher
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
 from server.live.station_watch import StationWatch
+from server.recordings.playbacks import Playbacks
+from server.recordings.store import RecordingStore
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
@@ -37,6 +40,9 @@ class Services:
         station: Newest reading of the charging station.
         camera: Pictures for people.
         live: Pushes what changes.
+        divergence: Runs the model beside the robot.
+        recordings: What was recorded of jobs.
+        playbacks: The same for the 3D picture.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
     """
@@ -53,5 +59,8 @@ class Services:
     station: StationWatch
     camera: CameraFeed
     live: LiveHub
+    divergence: DivergenceWatcher
+    recordings: RecordingStore
+    playbacks: Playbacks
     twin: TwinHost | None
     garage: SimulatedGarage | None

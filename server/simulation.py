@@ -38,6 +38,7 @@ class SimulatedJob:
             measured, whichever is larger.
         duration_s: From acceptance to the plug seated; to the end for a job that got not so far.
         limit_duration_s: The same motion if only the joint limits mattered.
+        divergences: What the model beside the robot found, in words.
         wall_s: Computing time.
     """
 
@@ -49,6 +50,7 @@ class SimulatedJob:
     max_force_n: float
     duration_s: float
     limit_duration_s: float | None
+    divergences: list[str]
     wall_s: float
 
     @property
@@ -89,6 +91,7 @@ async def _simulate(settings: Settings, request: JobRequest) -> SimulatedJob:
         max_force_n=truth.max_force_n(ended),
         duration_s=seated_s if seated_s is not None else phases[-1].started_s,
         limit_duration_s=ended.result.limit_duration_s,
+        divergences=[event.message for event in events if event.kind == "divergence"],
         wall_s=time.perf_counter() - began,
     )
 

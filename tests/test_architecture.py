@@ -44,6 +44,8 @@ FORBIDDEN: dict[str, set[str]] = {
     "server.localisation": {"server.jobs", "server.live", "server.storage", *WIRING},
     "server.storage": {"server.localisation", "server.live", *WIRING, "drivers", "twin.motion"},
     "server.jobs": {"server.live", *WIRING, "drivers.simulator"},
+    "server.divergence": {"server.live", "server.api", *WIRING, "drivers.simulator"},
+    "server.recordings": {"server.api", *WIRING, "drivers.simulator"},
     "server.live": {"server.api.app", *(WIRING - {"server.services"}), "drivers.simulator"},
     "server.api": {*(WIRING - {"server.services"}), "drivers.simulator"},
     "server.services": {"server.cli", "server.serving", "server.simulation", "server.composition"},

@@ -5,10 +5,17 @@ TwinError
 │   ├── UnreachableError       no joint positions within the limits put the tip there
 │   ├── LegsCannotCloseError   no platform position belongs to these joint positions
 │   └── NearSingularityError   the pose is too near a singularity
-└── MotionError                twin.motion.errors
-    ├── InvalidMotionError     the request makes no motion (a speed of zero, a number not finite)
-    ├── PlanningError          the planner found no trajectory
-    └── UnsafePlanError        a plan leaves the limits on its way; says when and where
+├── MotionError                twin.motion.errors
+│   ├── InvalidMotionError     the request makes no motion (a speed of zero, a number not finite)
+│   ├── PlanningError          the planner found no trajectory
+│   └── UnsafePlanError        a plan leaves the limits on its way; says when and where
+└── WorkspaceError             twin.workspace.errors
+    ├── EmptyWorkspaceError    the robot reaches no position at all
+    ├── EmptyRegionError       a figure was asked of a region that has no points
+    ├── InvalidRectangleError  the sizes or the place make no rectangle
+    ├── InvalidGridError       the step makes no grid
+    ├── RectangleOutsideError  a rectangle is not inside the workspace; says where it leaves it
+    └── SingularRectangleError a rectangle touches a singularity, where the figure is infinite
 """
 
 from __future__ import annotations

@@ -17,6 +17,9 @@ class RobotSag:
     that does not depend on the slide and was there when the plug was taught, so only its
     difference from its mean moves the tip.
 
+    Beyond the points of the published tables, and for a robot of other lengths, the nearest
+    published value stands in: a real robot sags there too, and nothing better is known.
+
     Args:
         geometry: The robot as built.
         scale: Of the published deflections; 0 for a rigid robot.

@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from server.errors import PlugPilotError
+from twin.errors import TwinError
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +22,9 @@ class _Subcommand:
 _SUBCOMMANDS = {
     "serve": _Subcommand("server.cli.serve", "Run the robot, its pages and its API."),
     "simulate": _Subcommand("server.cli.simulate", "Run jobs on the simulator, without pages."),
+    "workspace": _Subcommand(
+        "server.cli.workspace", "Study the robot's design; find a smaller one."
+    ),
     "locate": _Subcommand("server.cli.locate", "Find the socket in pictures."),
     "firmware": _Subcommand("server.cli.firmware", "Build and write the board's firmware."),
     "config": _Subcommand("server.cli.config", "Print the settings in force."),
@@ -56,6 +60,14 @@ class _LazyGroup(click.Group):
         except PlugPilotError as error:
             click.echo(f"{error.detail}\n{error.remedy}", err=True)
             sys.exit(2)
+        except TwinError as error:
+            click.echo(f"{_sentence(str(error))}\n{error.remedy}", err=True)
+            sys.exit(2)
+
+
+def _sentence(clause: str) -> str:
+    """The mathematics speaks in clauses, because they become part of longer sentences."""
+    return clause[:1].upper() + clause[1:] + ("" if clause.endswith(".") else ".")
 
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

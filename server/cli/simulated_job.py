@@ -21,6 +21,7 @@ def as_document(outcome: SimulatedJob) -> str:
             "max_force_n": round(outcome.max_force_n, 2),
             "duration_s": round(outcome.duration_s, 3),
             "limit_duration_s": outcome.limit_duration_s,
+            "divergences": outcome.divergences,
             "phases": [
                 {
                     "phase": phase.phase,
@@ -58,6 +59,7 @@ def as_line(outcome: SimulatedJob) -> str:
         f"  force {outcome.max_force_n:.1f} N"
         f"  {outcome.duration_s:.2f} s = {_ratio(outcome):.2f} x limit"
         f"  computed in {outcome.wall_s:.1f} s"
+        + "".join(f"\n{'':>11}{found}" for found in outcome.divergences)
     )
 
 
@@ -67,6 +69,8 @@ def as_summary(outcomes: Sequence[SimulatedJob]) -> str:
     lines = ["", f"{len(good)} of {len(outcomes)} succeeded"]
     if not good:
         return "\n".join(lines)
+    parted = sum(bool(outcome.divergences) for outcome in outcomes)
+    lines.append(f"robot and model parted in {parted} of them")
     lines.append(f"{'':<24}{'median':>9}{'p95':>9}{'worst':>9}")
     for name, unit, values in (
         ("lateral error", "mm", [o.lateral_error_mm or 0.0 for o in good]),
@@ -93,6 +97,7 @@ def _result_lines(outcome: SimulatedJob) -> list[str]:
             f"The plug met the socket {outcome.lateral_error_mm:.3f} mm off its centre and is "
             f"{outcome.insertion_depth_mm:.2f} mm deep; largest force {outcome.max_force_n:.1f} N.",
         ]
+    lines += outcome.divergences
     if job.error is not None:
         lines.append(f"{job.error.title}: {job.error.detail} {job.error.remedy}")
     else:

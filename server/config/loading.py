@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from server.config.errors import InvalidSettingsError
 from server.config.layers import (
@@ -21,6 +21,8 @@ from server.config.layers import (
 )
 from server.config.problems import describe
 from server.config.settings import Settings
+
+Model = TypeVar("Model", bound=BaseModel)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,20 +55,29 @@ def load_configuration(config: Path | None = None, options: Sequence[Option] = (
         *environment_entries(),
         *option_entries(options),
     ]
-    # The defaults lie below, so that a file may set one number of a table and keep the others.
-    values: dict[str, Any] = Settings().model_dump()
-    for entry in entries:
-        _put(values, entry.key, entry.value)
-    try:
-        settings = Settings(**values)
-    except ValidationError as error:
-        raise _invalid(error, entries) from error
+    settings = checked(Settings, entries)
     return Configuration(settings, {".".join(entry.key): entry.origin for entry in entries})
 
 
 def load_settings(config: Path | None = None, options: Sequence[Option] = ()) -> Settings:
     """The settings alone; see `load_configuration`."""
     return load_configuration(config, options).settings
+
+
+def checked(model: type[Model], entries: Sequence[Entry]) -> Model:
+    """A model of its defaults with entries over them; later ones win.
+
+    Raises:
+        InvalidSettingsError: values or keys that cannot be; lists all of them.
+    """
+    # The defaults lie below, so that a file may set one number of a table and keep the others.
+    values: dict[str, Any] = model().model_dump()
+    for entry in entries:
+        _put(values, entry.key, entry.value)
+    try:
+        return model(**values)
+    except ValidationError as error:
+        raise _invalid(error, entries) from error
 
 
 def _put(values: dict[str, Any], key: Key, value: Any) -> None:  # noqa: ANN401 - not checked yet

@@ -11,15 +11,18 @@ from server.config.camera import CameraSettings
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
+from server.config.recordings import RecordingSettings
 from server.config.robot import RobotSettings
 from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
+from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import PlatformPosition, UnreachableError, alpha, check_joint_limits
 from twin.motion.limits import MotionLimits
+from twin.statics import ActuatorLimits, Loads
 
 
 class Settings(BaseSettings):
@@ -41,10 +44,14 @@ class Settings(BaseSettings):
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()
     motion: MotionLimits = MotionLimits()
+    divergence: DivergenceNumbers = DivergenceNumbers()
+    loads: Loads = Loads()
+    actuators: ActuatorLimits = ActuatorLimits()
     camera: CameraSettings = Field(default_factory=CameraSettings)
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
     park: ParkSettings = ParkSettings()
+    recordings: RecordingSettings = RecordingSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 
 from drivers.robot import (
     BoardState,
@@ -24,6 +24,7 @@ from server.control.finishing import finish
 from server.control.model import RobotMode
 from server.control.modes import why_not_moving
 from server.control.telemetry import Telemetry
+from twin.motion.segments import Segment
 
 _log = logging.getLogger(__name__)
 
@@ -46,6 +47,8 @@ _SPEAK_FOR_THEMSELVES = {
 
 Command = Callable[[], Awaitable[None]]
 
+OnSegments = Callable[[Sequence[Segment]], None]
+
 
 class Board:
     """Commands to the driver.
@@ -54,6 +57,9 @@ class Board:
         driver: The motion board.
         telemetry: What it reports.
         mode: Tells what the robot is doing.
+
+    Attributes:
+        on_segments: Called with all segments that the board has accepted.
     """
 
     def __init__(
@@ -61,6 +67,7 @@ class Board:
     ) -> None:
         self.driver = driver
         self.telemetry = telemetry
+        self.on_segments: OnSegments = lambda _: None
         self._mode = mode
 
     async def command(self, call: Command) -> None:
@@ -74,6 +81,15 @@ class Board:
             await call()
         except RobotDriverError as error:
             raise await self._explain(error) from error
+
+    async def push(self, segments: Sequence[Segment]) -> None:
+        """Send segments to the board's queue.
+
+        Raises:
+            ControlError: the board refused, with the reason behind it.
+        """
+        await self.command(lambda: self.driver.push(segments))
+        self.on_segments(segments)
 
     async def home(self) -> None:
         """Home; whatever ends it early brings the robot to rest first.

@@ -138,7 +138,7 @@ class Motion:
         self._tail = batch[-1]
         self._sent_of_plan_s += sum(segment.duration_s for segment in batch)
         try:
-            await self._board.command(lambda: self._board.driver.push(batch))
+            await self._board.push(batch)
         except ControlError:
             self._obey_interruption()  # the reason behind the refusal, if there is one
             raise

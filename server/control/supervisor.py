@@ -18,7 +18,7 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
-from server.control.board import Board
+from server.control.board import Board, OnSegments
 from server.control.errors import (
     EmergencyStoppedError,
     LateralMotionForbiddenError,
@@ -111,9 +111,18 @@ class Supervisor:
         """Why there is no link to the motion board."""
         return self._link.trouble
 
+    @property
+    def plan(self) -> MotionPlan | None:
+        """The plan of the motion under way, None while there is none."""
+        return self._motion.plan if self._motion else None
+
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change, telemetry included."""
         self._listeners.add(listener)
+
+    def listen_to_segments(self, listener: OnSegments) -> None:
+        """Call ``listener`` with all segments that the board has accepted; there is only one."""
+        self._board.on_segments = listener
 
     # Life
 

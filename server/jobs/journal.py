@@ -16,6 +16,8 @@ from server.timing import Calendar
 
 _log = logging.getLogger(__name__)
 
+OnEntry = Callable[[Job, JobEvent | None], None]
+
 
 class Journal:
     """Keeps one job's state and what happened in it.
@@ -24,7 +26,7 @@ class Journal:
         job: The job as it was accepted.
         store: Where it is kept.
         calendar: Dates of the entries.
-        changed: Called with the job after every change.
+        changed: Called with the job and the newest entry after every change.
         sequence: Number of the newest entry that is there already.
     """
 
@@ -33,7 +35,7 @@ class Journal:
         job: Job,
         store: JobStore,
         calendar: Calendar,
-        changed: Callable[[Job], None],
+        changed: OnEntry,
         *,
         sequence: int = 0,
     ) -> None:
@@ -81,7 +83,7 @@ class Journal:
         self.job = self.job.model_copy(
             update={"state": JobState.FAILED, "error": problem_from(error)}
         )
-        self._changed(self.job)
+        self._changed(self.job, None)
 
     async def _record(
         self,
@@ -104,5 +106,5 @@ class Journal:
         self.job = job
         # A cancelled caller must not leave the journal behind the truth.
         await asyncio.shield(self._store.save(job, event))
-        self._changed(job)
+        self._changed(job, event)
         _log.info("job %s, %s: %s", job.id, job.phase.value, message)

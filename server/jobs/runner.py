@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from typing import Any
 
 from uuid6 import uuid7
 
@@ -25,7 +26,7 @@ from server.jobs.journal import Journal
 from server.jobs.model import JobPhase, JobState, JobType
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
-from server.schema.jobs import Job, JobRequest, JobResult
+from server.schema.jobs import Job, JobEvent, JobRequest, JobResult
 from server.schema.vehicles import Vehicle
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
@@ -66,6 +67,7 @@ class JobRunner:
         self._settings = settings
         self._calendar = calendar
         self._listeners: list[Callable[[], None]] = []
+        self._readers: list[Callable[[Job, JobEvent], None]] = []
         self._accepting = asyncio.Lock()
         self._execution: Execution | None = None
         self._task: asyncio.Task[None] | None = None
@@ -74,6 +76,19 @@ class JobRunner:
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change of the newest job or the socket's pose."""
         self._listeners.append(listener)
+
+    def listen_to_journal(self, listener: Callable[[Job, JobEvent], None]) -> None:
+        """Call ``listener`` with every entry that is written into a job's journal."""
+        self._readers.append(listener)
+
+    async def note(self, kind: str, message: str, **data: Any) -> None:  # noqa: ANN401 - JSON
+        """Write something that was noticed beside the job into its journal, if one is running.
+
+        Raises:
+            StorageError: it cannot be written.
+        """
+        if self._execution is not None:
+            await self._execution.context.journal.note(kind, message, **data)
 
     async def start(self) -> None:
         """Close the books on jobs that a restart interrupted."""
@@ -173,7 +188,7 @@ class JobRunner:
 
     def _begin(self, context: JobContext) -> Job:
         execution = self._execution = Execution(context)
-        self._job_changed(execution.job)
+        self._job_changed(execution.job, None)
         self._task = asyncio.create_task(self._run(execution), name=f"job {execution.job.id}")
         return execution.job
 
@@ -205,9 +220,12 @@ class JobRunner:
         if self._execution is not None:
             self._execution.notice_robot()
 
-    def _job_changed(self, job: Job) -> None:
+    def _job_changed(self, job: Job, event: JobEvent | None) -> None:
         self.newest = job
         self._changed()
+        if event is not None:
+            for reader in self._readers:
+                reader(job, event)
 
     def _socket_seen(self, socket: SocketPose) -> None:
         self.socket = socket

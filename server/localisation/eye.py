@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 
 from drivers.camera import CameraDriver, CameraError, CameraModel, Frame
 from server.control.board import MOVING
@@ -14,6 +15,8 @@ from server.schema.vehicles import Vehicle
 from server.vision import LabelPose, Locator, VisionError, combine
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
+
+OnSighting = Callable[[SocketPose, Frame], None]
 
 
 class Eye:
@@ -41,6 +44,11 @@ class Eye:
         self._geometry = geometry
         self._telemetry = telemetry
         self._locator = Locator(optics)
+        self._listeners: list[OnSighting] = []
+
+    def listen(self, listener: OnSighting) -> None:
+        """Call ``listener`` with every pose and the picture it came from (the last of several)."""
+        self._listeners.append(listener)
 
     async def look(self, vehicle: Vehicle, expected: SocketPose | None = None) -> SocketPose | None:
         """Take one picture now and locate the vehicle's socket in it.
@@ -108,9 +116,12 @@ class Eye:
             return None
 
     async def _socket(self, sighting: LabelPose, frame: Frame, vehicle: Vehicle) -> SocketPose:
-        return socket_from_label(
+        socket = socket_from_label(
             sighting, await self._camera_pose(frame), vehicle.socket, frame.captured_at_s
         )
+        for listener in self._listeners:
+            listener(socket, frame)
+        return socket
 
     async def _camera_pose(self, frame: Frame) -> Pose:
         if self._telemetry.require().board in MOVING:

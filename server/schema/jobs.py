@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -52,6 +52,27 @@ class JobResult(Wire):
     )
 
 
+class RecordingInfo(Wire):
+    """What was recorded of a job: GET /api/v1/jobs/{id}/recording."""
+
+    size_bytes: int = Field(ge=0)
+
+
+class PlaybackMark(Wire):
+    """Something that happens in a playback."""
+
+    at_s: float = Field(ge=0, description="Seconds since the playback began")
+    kind: Literal["phase", "divergence"]
+    text: str = Field(description="Name of the phase, or what has parted")
+
+
+class Playback(Wire):
+    """How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser."""
+
+    duration_s: float = Field(ge=0, description="Waits without motion are cut down")
+    marks: list[PlaybackMark]
+
+
 class Job(Wire):
     """One job, running or ended."""
 
@@ -67,6 +88,9 @@ class Job(Wire):
     cancel_requested: bool
     result: JobResult
     error: Problem | None
+    recording: RecordingInfo | None = Field(
+        default=None, description="Null while the job runs, and where nothing is kept"
+    )
 
 
 class JobPage(Wire):

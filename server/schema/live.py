@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from server.schema.base import Timestamp, Wire
+from server.schema.divergence import TwinReport
 from server.schema.jobs import Job
 from server.schema.problem import Problem
 from server.schema.robot import JogStep, Robot
@@ -40,6 +41,7 @@ class Live(Wire):
     job: Job | None = Field(description="The running job, else the newest one, else null")
     station: Station
     service: Service
+    twin: TwinReport = TwinReport()
 
 
 class LiveChanges(Wire):
@@ -49,6 +51,7 @@ class LiveChanges(Wire):
     job: Job | None = None
     station: Station | None = None
     service: Service | None = None
+    twin: TwinReport | None = None
 
 
 class SnapshotMessage(Wire):

@@ -7,6 +7,7 @@ from typing import Literal
 
 from server.control.model import PlugState, RobotMode
 from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.divergence import DivergenceReport, TwinReport
 from server.schema.jobs import Job, JobResult
 from server.schema.live import Live, Service
 from server.schema.problem import Problem
@@ -20,6 +21,7 @@ from server.schema.robot import (
     Tip,
 )
 from server.schema.station import Station
+from twin.divergence import Quantity
 
 Part = Literal["robot", "camera", "station"]
 
@@ -136,6 +138,27 @@ def live(
 _MOVING = robot(RobotMode.MOVING, PlugState.FREE)
 _IN = robot(RobotMode.READY, PlugState.INSERTED)
 
+_PARTED = TwinReport(
+    divergences=[
+        DivergenceReport(
+            quantity=Quantity.RHO3,
+            title="The slide does not follow",
+            message="The slide is at 82.31 mm instead of 83.19 mm: 0.87 mm off, "
+            "12 times its uncertainty.",
+            unit="mm",
+            expected=83.19,
+            measured=82.31,
+            sigma=0.073,
+            sigmas=12.0,
+            at=NOW,
+            phase="inserting",
+            joints=_JOINTS,
+            depth_mm=12.3,
+            tip_off_mm=0.87,
+        )
+    ]
+)
+
 SCENES: dict[str, Live] = {
     "ready": live(robot()),
     "off": live(robot(RobotMode.OFF)),
@@ -145,6 +168,9 @@ SCENES: dict[str, Live] = {
     "inserting": live(
         robot(RobotMode.MOVING, PlugState.INSERTED, force_n=38.2), job(JobPhase.INSERTING)
     ),
+    "parted": live(
+        robot(RobotMode.MOVING, PlugState.INSERTED, force_n=79.1), job(JobPhase.INSERTING)
+    ).model_copy(update={"twin": _PARTED}),
     "charging": live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
     "withdrawing": live(
         robot(RobotMode.MOVING, PlugState.INSERTED),

@@ -12,12 +12,14 @@ from pathlib import Path
 
 import uvicorn
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
-from fastapi.responses import JSONResponse
+from fastapi.responses import HTMLResponse, JSONResponse
 
 from server.api.pages import pages_router
+from server.jobs.model import JobPhase, JobState
+from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
 from server.schema.vehicles import Vehicle, VehicleList
-from tests.browser.scenes import LABEL_NOT_FOUND, SCENES
+from tests.browser.scenes import LABEL_NOT_FOUND, SCENES, job
 
 STATIC_DIR = Path(__file__).resolve().parents[2] / "server" / "static"
 BEAT_S = 0.1
@@ -27,6 +29,21 @@ VEHICLES = VehicleList(
         Vehicle(id="id3", name="Volkswagen ID.3", label_payload="PLUGPILOT:1:id3"),
         Vehicle(id="zoe", name="Renault Zoe", label_payload="PLUGPILOT:1:zoe"),
     ]
+)
+
+PAST_JOB = job(JobPhase.PARKING, state=JobState.SUCCEEDED).model_copy(
+    update={"recording": RecordingInfo(size_bytes=1_500_000)}
+)
+PLAYBACK = Playback(
+    duration_s=18.7,
+    marks=[
+        PlaybackMark(at_s=0, kind="phase", text="aligning"),
+        PlaybackMark(at_s=3.3, kind="phase", text="inserting"),
+        PlaybackMark(at_s=5.1, kind="divergence", text="The slide does not follow"),
+        PlaybackMark(at_s=7.9, kind="phase", text="charging"),
+        PlaybackMark(at_s=9.8, kind="phase", text="withdrawing"),
+        PlaybackMark(at_s=14.4, kind="phase", text="parking"),
+    ],
 )
 
 
@@ -47,6 +64,9 @@ class Stage:
         self.app.include_router(pages_router(STATIC_DIR))
         self.app.websocket("/api/v1/ws")(self._send_live)
         self.app.get("/api/v1/vehicles")(self._vehicles)
+        self.app.get("/api/v1/jobs")(self._jobs)
+        self.app.get("/api/v1/jobs/{job_id}/playback")(self._playback)
+        self.app.get("/twin/")(self._twin)
         self.app.post("/api/v1/{rest:path}")(self._accept)
 
     async def _send_live(self, connection: WebSocket) -> None:
@@ -72,13 +92,23 @@ class Stage:
         robot = self.live.robot.model_copy(update={"updated_at": updated_at})
         differing = {
             name: getattr(self.live, name)
-            for name in ("job", "station", "service")
+            for name in ("job", "station", "service", "twin")
             if getattr(self.live, name) != getattr(shown, name)
         }
         return LiveChanges(robot=robot, **differing)
 
     async def _vehicles(self) -> VehicleList:
         return VEHICLES
+
+    async def _jobs(self) -> JobPage:
+        return JobPage(items=[PAST_JOB], next_cursor=None)
+
+    async def _playback(self, job_id: str) -> Playback:
+        assert job_id == PAST_JOB.id
+        return PLAYBACK
+
+    async def _twin(self) -> HTMLResponse:
+        return HTMLResponse('<!doctype html><html lang="en"><title>3D</title><p>3D</p></html>')
 
     async def _accept(self, request: Request, rest: str) -> JSONResponse:
         self.requests.append(f"{request.method} /{rest}")

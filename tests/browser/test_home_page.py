@@ -75,11 +75,29 @@ def test_every_state_is_accessible(page: Page, address: str, stage: Stage, scene
 
 def test_dialogs_and_details_are_accessible(page: Page, address: str, stage: Stage) -> None:
     _open(page, address, stage, "ready")
-    page.locator("summary").click()
+    page.locator(".robot summary").click()
+    page.locator(".history summary").click()
+    page.get_by_role("button", name="Watch again").wait_for()
     page.get_by_role("button", name="Emergency stop").wait_for()
     page.get_by_role("button", name="Charge").click()
     page.get_by_role("dialog").wait_for()
     assert _violations(page) == []
+
+
+def test_a_recorded_job_can_be_watched_with_a_thumb(page: Page, address: str, stage: Stage) -> None:
+    _open(page, address, stage, "ready")
+    page.locator(".history summary").click()
+    page.get_by_role("button", name="Watch again").click()
+    page.get_by_role("slider", name="Time in the recording").wait_for()
+    for target in page.locator("dialog button, dialog input").all():
+        box = target.bounding_box()
+        assert box is not None
+        assert box["height"] >= MIN_TARGET_PX, target.inner_text()
+        assert box["x"] + box["width"] <= PHONE["width"]
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    assert _violations(page) == []
+    page.get_by_role("button", name="Close").click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
 
 
 @pytest.mark.parametrize("scene", SCENES)

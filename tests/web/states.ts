@@ -93,6 +93,7 @@ export function live(changes: Partial<Live> = {}): Live {
       camera_online: true,
       started_at: START,
     },
+    twin: { divergences: [] },
     ...changes,
   };
 }

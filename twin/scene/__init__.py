@@ -3,7 +3,8 @@
 Importing this package is cheap: the 3D library is only loaded when a `TwinHost` starts.
 """
 
+from twin.scene.cable import Cable
 from twin.scene.host import TwinHost
-from twin.scene.state import PlugPlace, TwinState
+from twin.scene.state import PlannedPath, PlugPlace, TwinState
 
-__all__ = ["PlugPlace", "TwinHost", "TwinState"]
+__all__ = ["Cable", "PlannedPath", "PlugPlace", "TwinHost", "TwinState"]

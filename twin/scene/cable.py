@@ -1,18 +1,51 @@
-"""The hanging charging cable as a catenary of fixed length."""
+"""The hanging charging cable as a catenary of fixed length, and how hard it pulls."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Points = NDArray[np.float64]
 
-LENGTH_MM = 1500.0
 SEGMENTS = 40
+GRAVITY_M_S2 = 9.80665
 
 _LEAST_SPAN_MM = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Cable:
+    """The charging cable; the defaults are the published requirement.
+
+    Attributes:
+        length_mm: Length between the station and the plug.
+        mass_kg: Mass of this length.
+    """
+
+    length_mm: float = 1500.0
+    mass_kg: float = 1.4
+
+    def __post_init__(self) -> None:
+        if not (self.length_mm > 0 and self.mass_kg > 0) or math.isinf(self.length_mm):
+            msg = "a cable needs a length_mm and a mass_kg greater than zero"
+            raise ValueError(msg)
+
+    @property
+    def weight_n_mm(self) -> float:
+        """Weight of a millimetre [N/mm]."""
+        return self.mass_kg * GRAVITY_M_S2 / self.length_mm
+
+
+class _Catenary(NamedTuple):
+    """y = a cosh(x / a) with x from its lowest point: a, and x at the first end [mm]."""
+
+    a: float
+    left: float
+    span: float
 
 
 def _half_span(ratio: float) -> float:
@@ -28,14 +61,27 @@ def _half_span(ratio: float) -> float:
     return u
 
 
-def hanging(
-    start_mm: Points, end_mm: Points, *, length_mm: float = LENGTH_MM, segments: int = SEGMENTS
-) -> Points:
-    """Points at equal distances along a cable that hangs between two ends.
+def _catenary(start_mm: Points, end_mm: Points, length_mm: float) -> _Catenary | None:
+    """The curve between two ends, None if the cable is too short to hang.
 
     In the vertical plane through both ends the cable is y = a cosh(x / a), and the arc from its
     lowest point is s = a sinh(x / a). With the horizontal span h, the rise v and u = h / (2 a):
     sinh(u) / u = sqrt(length^2 - v^2) / h, and the middle of the span lies at a atanh(v / length).
+    """
+    across = end_mm - start_mm
+    rise = float(across[1])
+    span = math.hypot(float(across[0]), float(across[2]))
+    if length_mm**2 - rise**2 - span**2 <= 1e-9 * length_mm**2:
+        return None
+    h = max(span, _LEAST_SPAN_MM)
+    a = h / (2 * _half_span(math.sqrt(length_mm**2 - rise**2) / h))
+    return _Catenary(a, a * math.atanh(rise / length_mm) - h / 2, h)
+
+
+def hanging(
+    start_mm: Points, end_mm: Points, *, length_mm: float, segments: int = SEGMENTS
+) -> Points:
+    """Points at equal distances along a cable that hangs between two ends.
 
     Args:
         start_mm: First end, y up, shape (3,).
@@ -47,26 +93,40 @@ def hanging(
         Shape (segments + 1, 3); the first and the last point are the ends.
     """
     across = end_mm - start_mm
-    rise = float(across[1])
-    span = math.hypot(float(across[0]), float(across[2]))
     fractions = np.linspace(0.0, 1.0, segments + 1)
-    straight = np.asarray(start_mm + fractions[:, None] * across)
-    slack = length_mm**2 - rise**2 - span**2
-    if slack <= 1e-9 * length_mm**2:
-        return straight
-    h = max(span, _LEAST_SPAN_MM)
-    a = h / (2 * _half_span(math.sqrt(length_mm**2 - rise**2) / h))
-    left = a * math.atanh(rise / length_mm) - h / 2
+    points = np.asarray(start_mm + fractions[:, None] * across)
+    curve = _catenary(start_mm, end_mm, length_mm)
+    if curve is None:
+        return points
+    a, left, span = curve
     arc = a * math.sinh(left / a) + fractions * length_mm
     x = a * np.arcsinh(arc / a)
     y = np.hypot(a, arc)
-    points = straight.copy()
-    part = (x - x[0]) / h
+    part = (x - x[0]) / span
     points[:, 0] = start_mm[0] + part * across[0]
     points[:, 2] = start_mm[2] + part * across[2]
     points[:, 1] = start_mm[1] + (y - y[0])
     points[-1] = end_mm
     return points
+
+
+def pull_n(cable: Cable, start_mm: Points, end_mm: Points) -> Points | None:
+    """Force of a hanging cable on what holds its last end [N], shape (3,).
+
+    Its horizontal part is the weight of a length a everywhere; its vertical part is the weight
+    of the arc down to the lowest point.
+
+    Returns:
+        None if the cable is taut: its shape does not say then how hard it pulls.
+    """
+    curve = _catenary(start_mm, end_mm, cable.length_mm)
+    if curve is None:
+        return None
+    a, left, span = curve
+    across = end_mm - start_mm
+    arc = a * math.sinh(left / a) + cable.length_mm
+    horizontal = -a / max(span, _LEAST_SPAN_MM) * across
+    return np.asarray(cable.weight_n_mm * np.array([horizontal[0], -arc, horizontal[2]]))
 
 
 def along(points_mm: Points) -> tuple[Points, Points]:

@@ -10,9 +10,9 @@ from twin.geometry import RobotGeometry
 from twin.scene.frames import metres
 from twin.scene.poses import region_center
 
-_FROM_MM = (-800.0, 600.0, -1440.0)
+_FROM_MM = (-970.0, 690.0, -1560.0)
 """Behind the wall, which is not drawn from there, and to the left: nothing hides the plug."""
-_AT_MM = (15.0, -135.0, -60.0)
+_AT_MM = (10.0, -140.0, -190.0)
 _FIELD_OF_VIEW_RAD = math.radians(46.0)
 
 

@@ -18,6 +18,7 @@ from twin.scene.glb import Part
 from twin.scene.materials import (
     ANTHRACITE,
     GLASS_FADING,
+    GUESSED,
     LAMP,
     PAINT,
     PAINT_FADING,
@@ -48,7 +49,11 @@ PATCH_HALF_WIDTH, PATCH_HALF_HEIGHT = 190.0, 150.0
 WHEEL_RADIUS, WHEEL_WIDTH, WHEEL_X, WHEEL_Z = 305.0, 190.0, 765.0, 700.0
 LABEL_EDGE, LABEL_QUIET = 60.0, 7.2
 
-_FADE_FROM_Z, _FADE_TO_Z = 620.0, 1750.0
+_SEAM = 1.5
+_FADE_FROM_Z, _FADE_TO_Z = 920.0, 1850.0
+_FRONT_TO_Y, _FRONT_TO_PART = 315.0, 0.993
+"""Height and part of the half width up to which the body is opaque: none of it lies farther
+back than where it begins to fade."""
 
 # Height, foremost z and half width of each level; the nose's own tilt is added at the patch.
 _LEVELS = np.array(
@@ -91,11 +96,11 @@ _PLAN = np.array(
 )
 
 
-def _levels(theta_rad: float) -> Points:
+def _levels(theta_rad: float, per_span: int = 2) -> Points:
     """The nose's levels on a smooth curve, those of the patch on the plane of the socket."""
     table = _LEVELS.copy()
     table[:, 1] = np.where(np.isnan(table[:, 1]), -table[:, 0] * math.tan(theta_rad), table[:, 1])
-    smooth = rounded_curve(table, 4)
+    smooth = rounded_curve(table, per_span)
     on_patch = np.abs(smooth[:, 0]) <= PATCH_HALF_HEIGHT
     smooth[on_patch, 1] = -smooth[on_patch, 0] * math.tan(theta_rad)
     return smooth
@@ -103,9 +108,7 @@ def _levels(theta_rad: float) -> Points:
 
 def _plan() -> Points:
     """The plan from the car's right to its left, flat across the patch."""
-    half = rounded_curve(_PLAN, 3)
-    half[half[:, 0] <= _PLAN[1, 0], 1] = 0.0
-    return np.concatenate([half[:0:-1] * (-1, 1), half])
+    return np.concatenate([_PLAN[:0:-1] * (-1, 1), _PLAN])
 
 
 def _skin(levels: Points, plan: Points, *, outwards_mm: float = 0.0) -> Points:
@@ -123,19 +126,13 @@ def _surface(points: Points) -> Mesh:
     return grid(mirrored, np.asarray(t * t * (3 - 2 * t)))
 
 
-def _parted(mesh: Mesh) -> tuple[Mesh, Mesh]:
-    """The opaque front of a skin and its fading rear.
+def _nose(theta_rad: float, per_span: int = 2) -> tuple[Mesh, Mesh]:
+    """The painted body without the rectangle of the patch: its opaque front, its fading rear.
 
-    Transparent surfaces are not sorted against each other, so only what fades may be one.
+    Transparent surfaces are not sorted against each other, so only what fades may be one. The
+    two meet along straight lines of the body, as panels do: their shading does not run on.
     """
-    front = mesh.vertices_mm[mesh.faces][..., 2].max(axis=1) <= _FADE_FROM_Z
-    opaque = Mesh(mesh.vertices_mm, mesh.faces[front])
-    return opaque, Mesh(mesh.vertices_mm, mesh.faces[~front], alpha=mesh.alpha)
-
-
-def _nose(theta_rad: float) -> Mesh:
-    """The painted body without the rectangle of the patch."""
-    levels, plan = _levels(theta_rad), _plan()
+    levels, plan = _levels(theta_rad, per_span), _plan()
     low, high = (int(np.argmin(np.abs(levels[:, 0] - y))) for y in (-150.0, 150.0))
     left, right = (int(np.argmin(np.abs(plan[:, 0] - s * _PLAN[1, 0]))) for s in (-1, 1))
     skin = _skin(levels, plan)
@@ -144,15 +141,24 @@ def _nose(theta_rad: float) -> Mesh:
     cells = np.ones((len(levels) - 1, columns - 1), dtype=bool)
     # The skin is mirrored, which swaps the sides of a symmetric hole.
     cells[low:high, columns - 1 - right : columns - 1 - left] = False
-    return Mesh(whole.vertices_mm, whole.faces[np.tile(cells.ravel(), 2)], alpha=whole.alpha)
+    reach = np.maximum(np.abs(plan[1:, 0]), np.abs(plan[:-1, 0]))
+    near = np.outer(levels[1:, 0] <= _FRONT_TO_Y, reach <= _FRONT_TO_PART)
+    front, rear = (np.tile((cells & part).ravel(), 2) for part in (near, ~near))
+    return (
+        Mesh(whole.vertices_mm, whole.faces[front]),
+        Mesh(whole.vertices_mm, whole.faces[rear], alpha=whole.alpha),
+    )
 
 
 def _patch(theta_rad: float) -> Mesh:
-    """The flat patch of the nose with a round hole for the inlet."""
-    w, h = PATCH_HALF_WIDTH, PATCH_HALF_HEIGHT
+    """The flat patch of the nose with a round hole for the inlet.
+
+    It is a little larger than its place, so that no light shows through the seam.
+    """
+    w, h = PATCH_HALF_WIDTH + _SEAM, PATCH_HALF_HEIGHT + _SEAM
     corner = math.atan2(h, w)
     special = [corner, math.pi - corner, math.pi + corner, 2 * math.pi - corner]
-    angles = np.sort(np.concatenate([np.arange(48) * math.pi / 24, special]))
+    angles = np.sort(np.concatenate([np.arange(40) * math.pi / 20, special]))
     directions = np.column_stack([np.cos(angles), np.sin(angles)])
     reach = np.minimum(
         w / np.maximum(np.abs(directions[:, 0]), 1e-9),
@@ -167,11 +173,11 @@ def _patch(theta_rad: float) -> Mesh:
 def _strip(theta_rad: float, y: tuple[float, float], part: tuple[float, float], out: float) -> Mesh:
     """A patch laid on the body between two heights and two parts of the half width."""
     known = _levels(theta_rad)
-    heights = np.linspace(*y, 6)
+    heights = np.linspace(*y, 3)
     levels = np.column_stack(
         [heights, *(np.interp(heights, known[:, 0], known[:, i]) for i in (1, 2))]
     )
-    across = np.linspace(*part, 40)
+    across = np.linspace(*part, 24)
     plan = _plan()
     behind = np.interp(across, plan[:, 0], plan[:, 1])
     mesh = _surface(_skin(levels, np.column_stack([across, behind]), outwards_mm=out))
@@ -185,9 +191,9 @@ def _upright_to_socket(mesh: Mesh, theta_rad: float) -> Mesh:
 
 def body(theta_rad: float) -> list[Part]:
     """Painted body, glass, lamps and grille in the frame of a socket tilted by theta."""
-    windows = _surface(_skin(rounded_curve(_WINDOWS, 3), _plan()))
-    roof = _surface(_skin(rounded_curve(_ROOF, 3), _plan()))
-    front, rear = _parted(_nose(theta_rad))
+    windows = _surface(_skin(rounded_curve(_WINDOWS, 1), _plan()))
+    roof = _surface(_skin(rounded_curve(_ROOF, 1), _plan()))
+    front, rear = _nose(theta_rad)
     parts: list[Part] = [(front, PAINT), (_patch(theta_rad), PAINT)]
     parts += [(rear, PAINT_FADING), (roof, PAINT_FADING), (windows, GLASS_FADING)]
     for side in (-1, 1):
@@ -199,10 +205,11 @@ def body(theta_rad: float) -> list[Part]:
     return [(_upright_to_socket(mesh, theta_rad), material) for mesh, material in parts]
 
 
-def silhouette(theta_rad: float) -> Mesh:
-    """The body alone, without transparency of its own: shown when the car's place is a guess."""
-    front, _ = _parted(_nose(theta_rad))
-    return _upright_to_socket(merged([front, _patch(theta_rad)]), theta_rad)
+def silhouette(theta_rad: float) -> list[Part]:
+    """The front of the body alone: shown when the car's place is a guess."""
+    front, _ = _nose(theta_rad, per_span=1)
+    whole = merged([front, _patch(theta_rad)])
+    return [(_upright_to_socket(whole, theta_rad), GUESSED)]
 
 
 def inlet() -> list[Part]:
@@ -218,8 +225,8 @@ def inlet() -> list[Part]:
     return [*parts, (arm, STEEL)]
 
 
-def wheels() -> list[Part]:
-    """Both front wheels; origin on the floor below the socket, z into the car."""
+def wheel() -> list[Part]:
+    """One front wheel in its arch; origin its middle, x along the axle out of the car."""
     tyre = lathe(
         [
             (0.0, 20.0),
@@ -231,26 +238,21 @@ def wheels() -> list[Part]:
             (WHEEL_RADIUS - 26.0, WHEEL_WIDTH),
             (0.0, WHEEL_WIDTH),
         ],
-        count=48,
     )
-    rim = plate(circle(186.0, 48), 12.0, chamfer_mm=5.0)
-    opening = circle(WHEEL_RADIUS + 40.0, 48)
+    rim = plate(circle(186.0, 24), 12.0, chamfer_mm=5.0)
+    opening = circle(WHEEL_RADIUS + 40.0, 28)
     opening[:, 1] = np.maximum(opening[:, 1], -110.0)
     arch = plate(opening, 3.0, chamfer_mm=1.0)
-    hub = plate(circle(34.0, 24), 18.0, chamfer_mm=4.0)
-    parts: list[Part] = []
-    for side in (-1, 1):
-        # The lathe's z axis becomes the wheel's axle, pointing out of the car.
-        out = np.array([[0.0, 0.0, side], [0.0, 1.0, 0.0], [-side, 0.0, 0.0]])
-        at = (side * WHEEL_X, WHEEL_RADIUS, WHEEL_Z)
-        pieces: list[tuple[Mesh, Material]] = [
-            (tyre.moved((0, 0, -WHEEL_WIDTH / 2)), RUBBER),
-            (rim.moved((0, 0, WHEEL_WIDTH / 2 - 4)), STEEL),
-            (hub.moved((0, 0, WHEEL_WIDTH / 2 + 2)), ANTHRACITE),
-            (arch.moved((0, 0, WHEEL_WIDTH / 2 - 12)), PLASTIC),
-        ]
-        parts += [(mesh.turned(out).moved(at), material) for mesh, material in pieces]
-    return parts
+    hub = plate(circle(34.0, 12), 18.0, chamfer_mm=4.0)
+    # The lathe's z axis becomes the wheel's axle.
+    out = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+    pieces: list[Part] = [
+        (tyre.moved((0, 0, -WHEEL_WIDTH / 2)), RUBBER),
+        (rim.moved((0, 0, WHEEL_WIDTH / 2 - 4)), STEEL),
+        (hub.moved((0, 0, WHEEL_WIDTH / 2 + 2)), ANTHRACITE),
+        (arch.moved((0, 0, WHEEL_WIDTH / 2 - 12)), PLASTIC),
+    ]
+    return [(mesh.turned(out), material) for mesh, material in pieces]
 
 
 def label() -> list[Part]:

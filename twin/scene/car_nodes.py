@@ -12,7 +12,7 @@ from twin.scene.frames import turn
 from twin.scene.materials import CHARGING, IDLE, PLUGGED, Rgb
 from twin.scene.nodes import add_part, add_pivot, add_signal, place, place_transform, set_visible
 from twin.scene.shapes import lathe
-from twin.scene.state import TwinState
+from twin.scene.state import Pose, TwinState
 
 
 class CarNodes:
@@ -23,19 +23,32 @@ class CarNodes:
 
     def __init__(self, scene: SceneApi, geometry: RobotGeometry) -> None:
         self._nominal = poses.nominal_socket(geometry)
+        self._shown: tuple[Pose | None, Pose | None] | None = None
         theta = geometry.theta_rad
         self.car = add_pivot(scene, "/car")
         self.body = add_part(scene, "/car/body", car.body(theta))
         add_part(scene, "/car/inlet", car.inlet())
-        self.faded = add_signal(scene, "/car/faded", car.silhouette(theta), IDLE, opacity=0.22)
+        self.faded = add_part(scene, "/car/faded", car.silhouette(theta), shadow=False)
         r = plug_parts.CAVITY_RADIUS + 13.0
-        ring = lathe([(r + 1, -2), (r + 5, -5), (r + 9, -2), (r + 9, 3)], count=56)
+        ring = lathe([(r + 1, -2), (r + 5, -5), (r + 9, -2), (r + 9, 3)], count=24)
         self.ring = add_signal(scene, "/car/ring", ring, IDLE)
-        self.wheels = add_part(scene, "/wheels", car.wheels())
+        self.wheels = add_pivot(scene, "/wheels")
+        up, back = car.WHEEL_RADIUS, car.WHEEL_Z
+        half_turn = turn((0.0, 1.0, 0.0), math.pi)
+        add_part(scene, "/wheels/left", car.wheel(), at_mm=(car.WHEEL_X, up, back))
+        right = (-car.WHEEL_X, up, back)
+        add_part(scene, "/wheels/right", car.wheel(), at_mm=right, wxyz=half_turn)
         self.label = add_part(scene, "/label", car.label())
 
     def show(self, state: TwinState) -> None:
         """Moves the car and its label to where they were measured; lights the inlet's ring."""
+        self.ring.color = _ring_color(state)
+        measured = (state.T_base_socket, state.T_base_label)
+        if self._shown is not None and all(
+            new is old for new, old in zip(measured, self._shown, strict=True)
+        ):
+            return
+        self._shown = measured
         known = state.T_base_socket is not None
         T_socket = (
             self._nominal if state.T_base_socket is None else poses.upright(state.T_base_socket)
@@ -49,7 +62,6 @@ class CarNodes:
         place(self.wheels, (x, layers.FLOOR_Y, z), turn((0.0, 1.0, 0.0), heading_rad))
         T_label = state.T_base_label
         place_transform(self.label, poses.nominal_label(T_socket) if T_label is None else T_label)
-        self.ring.color = _ring_color(state)
 
 
 def _ring_color(state: TwinState) -> Rgb:

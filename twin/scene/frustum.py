@@ -1,4 +1,4 @@
-"""What the camera sees: a thin pyramid in front of its lens."""
+"""What the camera sees: a pyramid in front of its lens, with a place for its picture."""
 
 from __future__ import annotations
 
@@ -9,12 +9,19 @@ from viser import SceneApi
 
 from twin.scene.frames import METRES_PER_MM
 from twin.scene.materials import VIEW
+from twin.scene.nodes import add_pivot
 
+PICTURE = "picture"
+"""Node under the pyramid's whose picture a page may change for its own viewer.
+
+Pictures of a camera are large: they do not go through the 3D library's connection.
+"""
 _DEPTH_MM = 300.0
+_BEFORE_THE_RIM = 0.999
 
 
 def add_frustum(scene: SceneApi, name: str, *, hfov_rad: float, aspect: float) -> None:
-    """Adds the pyramid under a node that has the camera's frame (x right, y down, z forward).
+    """Adds the pyramid, hidden, under a node that has the camera's frame (z forward, y down).
 
     Args:
         scene: Scene to add to.
@@ -22,6 +29,7 @@ def add_frustum(scene: SceneApi, name: str, *, hfov_rad: float, aspect: float) -
         hfov_rad: Horizontal field of view.
         aspect: Width of the picture divided by its height.
     """
+    add_pivot(scene, name, visible=False)
     depth = _DEPTH_MM * METRES_PER_MM
     half_width = depth * math.tan(hfov_rad / 2)
     half_height = half_width / aspect
@@ -48,4 +56,14 @@ def add_frustum(scene: SceneApi, name: str, *, hfov_rad: float, aspect: float) -
         flat_shading=True,
         cast_shadow=False,
         receive_shadow=False,
+    )
+    scene.add_image(
+        f"{name}/{PICTURE}",
+        np.full((2, 2, 4), (*VIEW, 40), dtype=np.uint8),
+        render_width=float(2 * half_width),
+        render_height=float(2 * half_height),
+        format="png",
+        cast_shadow=False,
+        receive_shadow=False,
+        position=(0.0, 0.0, depth * _BEFORE_THE_RIM),
     )

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
+from twin.scene.cable import Cable
 from twin.scene.state import TwinState
+from twin.statics import SagTables
 
 if TYPE_CHECKING:
     import viser
@@ -36,7 +38,14 @@ class TwinHost:
     """
 
     def __init__(
-        self, geometry: RobotGeometry, mount: CameraMount, hfov_rad: float, aspect: float
+        self,
+        geometry: RobotGeometry,
+        mount: CameraMount,
+        hfov_rad: float,
+        aspect: float,
+        *,
+        cable: Cable | None = None,
+        sag: SagTables | None = None,
     ) -> None:
         """Args as for the scene; nothing is loaded or opened yet.
 
@@ -45,11 +54,15 @@ class TwinHost:
             mount: Where its camera sits.
             hfov_rad: The camera's horizontal field of view.
             aspect: Width of its picture divided by its height.
+            cable: The charging cable; by default the published one.
+            sag: The table of the sag at nine points; by default the published one.
         """
         self._geometry = geometry
         self._mount = mount
         self._hfov_rad = hfov_rad
         self._aspect = aspect
+        self._cable = cable or Cable()
+        self._sag = sag or SagTables()
         self._newest: TwinState | None = None
         self._stop = threading.Event()
         self._changed = threading.Event()
@@ -125,6 +138,8 @@ class TwinHost:
                 self._mount,
                 hfov_rad=self._hfov_rad,
                 aspect=self._aspect,
+                cable=self._cable,
+                sag=self._sag,
             )
             self._port = server.get_port()
             self._opened.set()
@@ -143,7 +158,6 @@ class TwinHost:
             now = time.monotonic()
             self._watching = viser_server.watchers(server)
             if not self._watching:
-                viser_server.compact(server)
                 self._stop.wait(_IDLE_STEP_S)
                 continue
             self._changed.clear()

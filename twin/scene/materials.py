@@ -18,6 +18,7 @@ class Material:
         metallic: 0 for plastic or paint, 1 for bare metal.
         roughness: 0 for a mirror, 1 for chalk.
         glow: Part of the base colour that is emitted whatever the light.
+        opacity: 1 for what nothing is seen through.
         blend: Whether the alpha of vertex colours makes the surface transparent.
         texture_png: Picture laid over the surface by its texture coordinates.
     """
@@ -27,6 +28,7 @@ class Material:
     metallic: float = 0.0
     roughness: float = 0.6
     glow: float = 0.0
+    opacity: float = 1.0
     blend: bool = False
     texture_png: bytes | None = None
 
@@ -47,11 +49,18 @@ LAMP = Material("lamp", (236, 244, 255), roughness=0.3, glow=0.9)
 FLOOR = Material("floor", (120, 126, 134), roughness=0.85, blend=True)
 WALL = Material("wall", (168, 172, 178), roughness=0.95, blend=True)
 
+GUESSED = Material("guessed car", (150, 158, 168), roughness=0.8, opacity=0.22)
+AHEAD = Material("commanded plug", (255, 176, 32), roughness=0.5, glow=0.25, opacity=0.55)
+
+FORCE = Material("force", (255, 70, 50), roughness=0.6, glow=0.35)
+PULLING = Material("pull", (90, 160, 255), roughness=0.6, glow=0.35)
+
 IDLE: Rgb = (150, 158, 168)
 PLUGGED: Rgb = (0, 190, 165)
 CHARGING: Rgb = (52, 211, 90)
-GHOST: Rgb = (255, 176, 32)
 REGION: Rgb = (0, 190, 165)
+REACH: Rgb = (110, 168, 255)
+PLACEMENT: Rgb = (255, 176, 32)
+SPREAD: Rgb = (255, 94, 200)
 VIEW: Rgb = (110, 168, 255)
-FORCE: Rgb = (255, 94, 72)
 CABLE: Rgb = (26, 27, 30)

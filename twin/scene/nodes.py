@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Literal
 
 import numpy as np
-from viser import FrameHandle, GlbHandle, MeshHandle, SceneApi, SceneNodeHandle
+from viser import (
+    FrameHandle,
+    GlbHandle,
+    LabelHandle,
+    MeshHandle,
+    SceneApi,
+    SceneNodeHandle,
+)
 
 from twin.scene.frames import METRES_PER_MM, UPRIGHT, Quaternion, Vector, metres, quaternion
 from twin.scene.glb import Part, to_glb
@@ -14,6 +22,9 @@ from twin.scene.shapes import Mesh
 from twin.scene.state import Pose
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
+
+Anchor = Literal["top-center", "bottom-center", "center-left", "center-right"]
+_FONT_SCALE = 0.9
 
 
 def add_pivot(scene: SceneApi, name: str, *, visible: bool = True) -> FrameHandle:
@@ -51,16 +62,46 @@ def add_signal(
     )
 
 
+def add_label(
+    scene: SceneApi,
+    name: str,
+    text: str,
+    *,
+    at_mm: Vector = ORIGIN,
+    anchor: Anchor = "bottom-center",
+    visible: bool = True,
+) -> LabelHandle:
+    """Words of one size on the screen, however far away."""
+    return scene.add_label(
+        name,
+        text,
+        position=metres(at_mm),
+        font_screen_scale=_FONT_SCALE,
+        anchor=anchor,
+        visible=visible,
+    )
+
+
+def set_text(label: LabelHandle, text: str) -> None:
+    """Changes a label's words; sends nothing if they are the same."""
+    if label.text != text:
+        label.text = text
+
+
 def set_visible(node: SceneNodeHandle, *, visible: bool) -> None:
     """Shows or hides a node with all that hangs on it; sends nothing if it is so already."""
     if node.visible != visible:
         node.visible = visible
 
 
-def place(node: SceneNodeHandle, position_mm: Vector, wxyz: Quaternion = UPRIGHT) -> None:
-    """Moves a node in its parent's frame; sends nothing if it is there already."""
+def place(node: SceneNodeHandle, position_mm: Vector, wxyz: Quaternion | None = None) -> None:
+    """Moves a node in its parent's frame; sends nothing if it is there already.
+
+    Comparing costs as much as sending: leave the turn out for what never turns.
+    """
     node.position = metres(position_mm)
-    node.wxyz = wxyz
+    if wxyz is not None:
+        node.wxyz = wxyz
 
 
 def place_transform(node: SceneNodeHandle, transform: Pose) -> None:

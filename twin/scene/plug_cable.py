@@ -18,24 +18,31 @@ _PULSE_SEGMENTS = 12
 """Distance of two light pulses that run along the cable while it charges."""
 
 
-def _link() -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+def _link(length_mm: float) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
     """One link of the cable with round ends, so that bends show no gaps [m]."""
-    half = cable.LENGTH_MM / cable.SEGMENTS / 2
+    half = length_mm / 2
     r = CABLE_RADIUS
     profile = [(0.0, -half - r), (0.7 * r, -half - 0.7 * r), (r, -half)]
     profile += [(radius, -z) for radius, z in reversed(profile)]
-    mesh = lathe(profile, count=12)
+    mesh = lathe(profile, count=10)
     return (mesh.vertices_mm * METRES_PER_MM).astype(np.float32), mesh.faces
 
 
 class PlugCable:
-    """The cable's node; its links are placed along a catenary whenever the plug has moved."""
+    """The cable's node; its links are placed along a catenary whenever the plug has moved.
 
-    def __init__(self, scene: SceneApi, start_mm: NDArray[np.float64]) -> None:
+    Attributes:
+        node: The links.
+        pull_n: The cable's pull on the plug where it was last hung to, in the base frame.
+    """
+
+    def __init__(self, scene: SceneApi, start_mm: NDArray[np.float64], spec: cable.Cable) -> None:
         self._start_mm = start_mm
+        self._spec = spec
+        self.pull_n: NDArray[np.float64] | None = None
         self._end_mm: NDArray[np.float64] | None = None
         self._pulse: int | None = None
-        vertices, faces = _link()
+        vertices, faces = _link(spec.length_mm / cable.SEGMENTS)
         self.node = scene.add_batched_meshes_simple(
             "/cable",
             vertices=vertices,
@@ -52,7 +59,9 @@ class PlugCable:
         if self._end_mm is not None and np.abs(end_mm - self._end_mm).max() < _MOVED_MM:
             return
         self._end_mm = end_mm
-        middles, orientations = cable.along(cable.hanging(self._start_mm, end_mm))
+        self.pull_n = cable.pull_n(self._spec, self._start_mm, end_mm)
+        line = cable.hanging(self._start_mm, end_mm, length_mm=self._spec.length_mm)
+        middles, orientations = cable.along(line)
         self.node.batched_positions = (middles * METRES_PER_MM).astype(np.float32)
         self.node.batched_wxyzs = orientations.astype(np.float32)
 

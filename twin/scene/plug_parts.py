@@ -9,6 +9,7 @@ import numpy as np
 from twin.scene.glb import Part
 from twin.scene.materials import (
     ACCENT,
+    AHEAD,
     ALUMINIUM,
     ANTHRACITE,
     COPPER,
@@ -22,6 +23,7 @@ from twin.scene.shapes import (
     Points,
     block,
     circle,
+    disc,
     inset,
     lathe,
     loft,
@@ -48,6 +50,7 @@ CONTACTS = (
     (8.5, -14.5, 3.4),
 )
 
+_CORNERS = 36
 _CARRIER_S = -118.0
 """Where the carrier holds the plug, along the axis from the tip."""
 _RAIL_DROP = -62.0
@@ -55,15 +58,15 @@ _RAIL_DROP = -62.0
 
 
 def _type2(radius_mm: float) -> Points:
-    """A circle with the flat top that keeps a Type 2 plug from turning, shape (48, 2)."""
-    outline = circle(radius_mm, 48)
+    """A circle with the flat top that keeps a Type 2 plug from turning, shape (N, 2)."""
+    outline = circle(radius_mm, _CORNERS)
     outline[:, 1] = np.minimum(outline[:, 1], 0.74 * radius_mm)
     return outline
 
 
 def _type2_body(sections: list[tuple[float, float]]) -> Mesh:
     """A skin over Type 2 outlines (radius, z)."""
-    return loft([np.column_stack([_type2(r), np.full(48, at)]) for r, at in sections])
+    return loft([np.column_stack([_type2(r), np.full(_CORNERS, at)]) for r, at in sections])
 
 
 def slide(bracket_z_mm: float, rho3_min_mm: float, rho3_max_mm: float) -> list[Part]:
@@ -107,8 +110,8 @@ def plug() -> list[Part]:
     )
     parts: list[Part] = [(head, PLASTIC), (shroud, PLASTIC), (_type2_body(collar), ACCENT)]
     for x_mm, y_mm, radius in CONTACTS:
-        parts.append((rod(radius + 1.6, 1.2).moved((x_mm, y_mm, -0.6)), RUBBER))
-        parts.append((rod(radius * 0.6, 1.4).moved((x_mm, y_mm, -0.6)), COPPER))
+        parts.append((disc(radius + 1.6, 1.2).moved((x_mm, y_mm, -0.6)), RUBBER))
+        parts.append((disc(radius * 0.6, 1.4).moved((x_mm, y_mm, -0.6)), COPPER))
     clamp = rounded_rectangle(84.0, 78.0, 18.0)
     parts.append((plate(clamp, 30.0, chamfer_mm=4.0).moved((0, -3.0, _CARRIER_S - 15.0)), SHELL))
     foot = block((50.0, 26.0, 44.0), radius_mm=5.0)
@@ -119,11 +122,11 @@ def plug() -> list[Part]:
 
 def boot_path() -> Points:
     """The bend of the cable behind the plug: a quarter circle down, in the plug's frame."""
-    angles = np.linspace(0.0, math.pi / 2, 9)
+    angles = np.linspace(0.0, math.pi / 2, 7)
     radius = 42.0
     back = -PLUG_LENGTH + 4.0 - radius * np.sin(angles)
     down = -radius * (1 - np.cos(angles))
-    return np.column_stack([np.zeros(9), down, back])
+    return np.column_stack([np.zeros(7), down, back])
 
 
 def cable_outlet_mm() -> Points:
@@ -131,9 +134,9 @@ def cable_outlet_mm() -> Points:
     return np.asarray(boot_path()[-1])
 
 
-def outline_of_plug() -> Mesh:
+def outline_of_plug() -> list[Part]:
     """A plain silhouette of the plug for the picture of where it should be."""
-    return _type2_body(
+    outline = _type2_body(
         [
             (24.0, -PLUG_LENGTH),
             (PLUG_RADIUS, -96.0),
@@ -142,6 +145,7 @@ def outline_of_plug() -> Mesh:
             (29.5, 0.0),
         ]
     )
+    return [(outline, AHEAD)]
 
 
 def socket() -> list[Part]:
@@ -155,7 +159,6 @@ def socket() -> list[Part]:
             (CAVITY_RADIUS, -CAVITY_DEPTH),
             (0.0, -CAVITY_DEPTH),
         ],
-        count=56,
     )
     parts: list[Part] = [(bowl, PLASTIC)]
     insert = inset(_type2(CAVITY_RADIUS), 9.0)
@@ -164,5 +167,5 @@ def socket() -> list[Part]:
     )
     for x_mm, y_mm, radius in CONTACTS:
         at = (-x_mm, y_mm, -CAVITY_DEPTH + 24.0)
-        parts.append((rod(radius, 16.0).moved(at), COPPER))
+        parts.append((disc(radius, 16.0).moved(at), COPPER))
     return parts

@@ -13,25 +13,24 @@ from twin.joints import JointPosition
 from twin.kinematics import gamma
 from twin.kinematics.errors import KinematicsError
 from twin.scene import layers, plug_parts, poses, robot_parts, room
+from twin.scene.cable import Cable
 from twin.scene.frames import Vector, turn
 from twin.scene.frustum import add_frustum
-from twin.scene.materials import FORCE, GHOST
-from twin.scene.nodes import add_part, add_pivot, add_signal, place, place_transform, set_visible
+from twin.scene.nodes import add_part, add_pivot, place, place_transform, set_visible
+from twin.scene.overlays import CAMERA, GHOST
 from twin.scene.plug_cable import PlugCable
-from twin.scene.shapes import Points, rod
+from twin.scene.shapes import Points
 from twin.scene.state import TwinState
 
 logger = logging.getLogger(__name__)
 
 PARTED_MM = 5.0
 """Distance of commanded and measured plug tip from which the ghost is shown."""
-LEAST_FORCE_N = 3.0
-"""Smallest force that gets an arrow."""
-ARROW_MM_PER_N = 1.5
+BEYOND_STROKE_MM = 1.0
+"""Distance outside a joint's range from which the picture says so."""
 
 _X: Vector = (1.0, 0.0, 0.0)
 _Z: Vector = (0.0, 0.0, 1.0)
-_ARROW_WIDTH = 0.006
 
 
 class RobotNodes:
@@ -39,6 +38,9 @@ class RobotNodes:
 
     A, D and E carry the carriages and bars, V the platform, the plug tip P the plug. The parts
     are hidden while the joints are unknown: the picture claims nothing that nobody measured.
+
+    Attributes:
+        trouble: What is wrong with the last joints in one sentence, empty if nothing is.
     """
 
     def __init__(
@@ -49,11 +51,13 @@ class RobotNodes:
         *,
         hfov_rad: float,
         aspect: float,
+        cable: Cable,
     ) -> None:
         g = geometry
         self._geometry = g
         self._along_axis = turn(_X, -g.theta_rad)
         self._impossible: JointPosition | None = None
+        self.trouble = ""
         add_part(scene, "/rails", robot_parts.rails(g))
         self.robot = add_pivot(scene, "/robot", visible=False)
         self.left_carriage = add_part(scene, "/robot/left_carriage", robot_parts.left_carriage(g))
@@ -70,21 +74,23 @@ class RobotNodes:
         slide = plug_parts.slide(layers.PLATFORM_FRONT_Z - reach, g.rho3.min_mm, g.rho3.max_mm)
         at = (0.0, rise, reach)
         add_part(scene, "/robot/platform/slide", slide, at_mm=at, wxyz=self._along_axis)
-        self.plug = add_part(scene, "/robot/platform/plug", plug_parts.plug())
+        self.plug = add_part(
+            scene, "/robot/platform/plug", plug_parts.plug(), wxyz=self._along_axis
+        )
         body = robot_parts.camera_body(mount.x_mm, mount.y_mm, mount.z_mm)
         add_part(scene, "/robot/platform/camera_body", body)
         camera = add_pivot(scene, "/robot/platform/camera")
         place_transform(camera, mount.T_platform_camera)
-        add_frustum(scene, "/robot/platform/camera/view", hfov_rad=hfov_rad, aspect=aspect)
-        self.ghost = add_signal(scene, "/ghost", plug_parts.outline_of_plug(), GHOST, opacity=0.6)
-        # A metre long and a metre wide: its scale is its size. It points along the plug's z.
-        arrow = rod(1000.0, 1000.0, chamfer_mm=300.0, count=20)
-        self.force = add_signal(scene, "/robot/platform/plug/force", arrow, FORCE)
-        place(self.force, (0.0, plug_parts.PLUG_RADIUS + 30.0, -20.0))
-        self.cable = PlugCable(scene, room.cable_inlet_mm(g))
+        add_frustum(scene, CAMERA.nodes[0], hfov_rad=hfov_rad, aspect=aspect)
+        add_pivot(scene, GHOST.nodes[0])
+        ghost = f"{GHOST.nodes[0]}/plug"
+        outline = plug_parts.outline_of_plug()
+        self.ghost = add_part(scene, ghost, outline, wxyz=self._along_axis, shadow=False)
+        self.cable = PlugCable(scene, room.cable_inlet_mm(g), cable)
 
     def show(self, state: TwinState) -> None:
-        """Moves the parts to the measured joints; shows the ghost and the force arrow."""
+        """Moves the parts to the measured joints; shows the ghost where they part."""
+        self.trouble = self._beyond_stroke(state.measured)
         measured = self._pose_of(state.measured)
         commanded = self._pose_of(state.commanded)
         set_visible(self.robot, visible=measured is not None)
@@ -92,7 +98,17 @@ class RobotNodes:
         if measured is not None:
             self._move(measured)
         self._show_ghost(measured, commanded)
-        self._show_force(state.force_n)
+
+    def _beyond_stroke(self, joints: JointPosition | None) -> str:
+        """Names the joint that is farthest outside its range; empty if none is."""
+        if joints is None:
+            return ""
+        ranges = self._geometry.joint_ranges
+        excesses = [r.excess_mm(q) for r, q in zip(ranges, joints, strict=True)]
+        worst = max(range(3), key=lambda i: abs(excesses[i]))
+        if not abs(excesses[worst]) > BEYOND_STROKE_MM:
+            return ""
+        return f"rho{worst + 1} is {abs(excesses[worst]):.0f} mm outside its range"
 
     def _pose_of(self, joints: JointPosition | None) -> poses.RobotPose | None:
         """Pose for joints, None while they are unknown or belong to no pose at all."""
@@ -104,6 +120,7 @@ class RobotNodes:
             if joints != self._impossible:
                 logger.warning("The picture cannot show these joints: %s", error)
             self._impossible = joints
+            self.trouble = "No pose of the robot belongs to these joint positions"
             return None
 
     def _move(self, pose: poses.RobotPose) -> None:
@@ -115,7 +132,7 @@ class RobotNodes:
         place(self.bar_ec, pose.e, right)
         place(self.platform, pose.v)
         x, y, z = (float(p - v) for p, v in zip(pose.plug, pose.v, strict=True))
-        place(self.plug, (x, y, z), self._along_axis)
+        place(self.plug, (x, y, z))
         self.cable.hang_to(self.plug_point_mm(pose.plug, plug_parts.cable_outlet_mm()))
 
     def plug_point_mm(self, tip_mm: Vector, point_mm: Points) -> Points:
@@ -130,13 +147,6 @@ class RobotNodes:
         parted_mm = 0.0
         if measured is not None and commanded is not None:
             parted_mm = float(np.linalg.norm(np.subtract(commanded.plug, measured.plug)))
-            place(self.ghost, commanded.plug, self._along_axis)
+            if parted_mm >= PARTED_MM:
+                place(self.ghost, commanded.plug)
         set_visible(self.ghost, visible=parted_mm >= PARTED_MM)
-
-    def _show_force(self, force_n: float) -> None:
-        visible = abs(force_n) >= LEAST_FORCE_N
-        set_visible(self.force, visible=visible)
-        if visible:
-            # Pushed back, the plug feels a force against its axis.
-            length = round(-force_n) * ARROW_MM_PER_N / 1000
-            self.force.scale = (_ARROW_WIDTH, _ARROW_WIDTH, length)

@@ -19,8 +19,8 @@ _STATION = (230.0, 320.0, 96.0)
 
 def floor(geometry: RobotGeometry) -> list[Part]:
     """A disc about the robot that grows transparent towards its rim."""
-    radii = np.linspace(0.001, 1.0, 15)
-    angles = np.linspace(0, 2 * math.pi, 49)
+    radii = np.linspace(0.001, 1.0, 9)
+    angles = np.linspace(0, 2 * math.pi, 37)
     x = radii[:, None] * np.cos(angles) * _FLOOR_RADIUS
     z = radii[:, None] * np.sin(angles) * _FLOOR_RADIUS
     points = np.stack([x, np.zeros_like(x), z], axis=-1)
@@ -32,8 +32,8 @@ def floor(geometry: RobotGeometry) -> list[Part]:
 def wall(geometry: RobotGeometry) -> list[Part]:
     """The wall behind the robot. It is only seen from the room: from behind it is not there."""
     half, low, high = geometry.base_width_mm / 2 + 900.0, layers.FLOOR_Y, 1250.0
-    x = np.linspace(-half, half, 25)
-    y = np.linspace(low, high, 17)
+    x = np.linspace(-half, half, 17)
+    y = np.linspace(low, high, 11)
     xs, ys = np.meshgrid(x, y)
     points = np.stack([xs, ys, np.zeros_like(xs)], axis=-1)
     sideways = np.clip((half - np.abs(xs)) / 800.0, 0, 1)

@@ -19,6 +19,8 @@ from twin.scene.state import Pose
 
 Points = NDArray[np.float64]
 
+_LEAST_AREA_MM2 = 1e-9
+
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
@@ -63,6 +65,24 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
     return Mesh(np.concatenate([m.vertices_mm for m in meshes]), np.concatenate(faces), uv, alpha)
 
 
+def without_waste(mesh: Mesh) -> Mesh:
+    """The same mesh without triangles that have no area and vertices that nothing uses."""
+    a, b, c = (mesh.vertices_mm[mesh.faces[:, i]] for i in range(3))
+    kept = np.linalg.norm(np.cross(b - a, c - a), axis=1) > _LEAST_AREA_MM2
+    used, faces = np.unique(mesh.faces[kept], return_inverse=True)
+    return Mesh(
+        mesh.vertices_mm[used],
+        faces.reshape(-1, 3).astype(np.uint32),
+        None if mesh.uv is None else mesh.uv[used],
+        None if mesh.alpha is None else mesh.alpha[used],
+    )
+
+
+def _roundness(radius_mm: float) -> int:
+    """Corners of a circle that looks round at its size."""
+    return int(np.clip(4 * round(1.1 * math.sqrt(radius_mm)), 10, 40))
+
+
 def circle(radius_mm: float, count: int = 40) -> Points:
     """Corners of a regular polygon, anticlockwise, shape (count, 2)."""
     angles = np.arange(count) * 2 * math.pi / count
@@ -70,11 +90,16 @@ def circle(radius_mm: float, count: int = 40) -> Points:
 
 
 def rounded_rectangle(width_mm: float, height_mm: float, radius_mm: float) -> Points:
-    """Outline about the origin, anticlockwise, five points to a corner, shape (20, 2)."""
+    """Outline about the origin, anticlockwise, shape (N, 2).
+
+    A sharp corner has one point, a small one three, a large one five.
+    """
+    points = 1 if radius_mm < 2 else 3 if radius_mm < 12 else 5
     corners = []
     for quarter, (sx, sy) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
         middle = (sx * (width_mm / 2 - radius_mm), sy * (height_mm / 2 - radius_mm))
-        angles = quarter * math.pi / 2 + np.linspace(0, math.pi / 2, 5)
+        part = np.linspace(0, math.pi / 2, points) if points > 1 else np.array([math.pi / 4])
+        angles = quarter * math.pi / 2 + part
         corners.append(middle + radius_mm * np.column_stack([np.cos(angles), np.sin(angles)]))
     return np.concatenate(corners)
 
@@ -84,7 +109,7 @@ def around(discs: Sequence[tuple[float, float, float]]) -> Points:
 
     Andrew's monotone chain over points on the circles.
     """
-    points = np.concatenate([circle(r, 32) + np.array([x, y]) for x, y, r in discs])
+    points = np.concatenate([circle(r, 24) + np.array([x, y]) for x, y, r in discs])
     ordered = sorted({(float(x), float(y)) for x, y in np.round(points, 6)})
 
     def chain(sequence: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -116,11 +141,21 @@ def _ring(outline: Points, z_mm: float) -> Points:
 
 
 def _band(first: Points, second: Points) -> Mesh:
-    """The strip between two closed rings of equally many points, normals outwards."""
+    """The strip between two closed rings of equally many points, normals outwards.
+
+    A ring that is one point becomes one vertex.
+    """
     n = len(first)
     i = np.arange(n)
     j = (i + 1) % n
-    faces = np.concatenate([np.column_stack([i, j, j + n]), np.column_stack([i, j + n, i + n])])
+    low_i, low_j, high_i, high_j = i, j, i + n, j + n
+    if not np.ptp(first, axis=0).any():
+        low_i = low_j = np.zeros(n, dtype=int)
+    if not np.ptp(second, axis=0).any():
+        high_i = high_j = np.full(n, n)
+    faces = np.concatenate(
+        [np.column_stack([low_i, low_j, high_j]), np.column_stack([low_i, high_j, high_i])]
+    )
     return Mesh(np.concatenate([first, second]), faces.astype(np.uint32))
 
 
@@ -162,13 +197,16 @@ def block(size_mm: tuple[float, float, float], *, radius_mm: float = 4.0) -> Mes
     return solid.moved((0, 0, -depth / 2))
 
 
-def lathe(profile: Sequence[tuple[float, float]], *, count: int = 40) -> Mesh:
+def lathe(profile: Sequence[tuple[float, float]], *, count: int | None = None) -> Mesh:
     """A solid or bowl turned about z from (radius, z) points, with an edge at each point."""
-    rings = [_ring(circle(r, count), z) for r, z in profile]
+    corners = count or _roundness(max(r for r, _ in profile))
+    rings = [_ring(circle(r, corners), z) for r, z in profile]
     return loft(rings, closed=False)
 
 
-def rod(radius_mm: float, length_mm: float, *, chamfer_mm: float = 1.0, count: int = 32) -> Mesh:
+def rod(
+    radius_mm: float, length_mm: float, *, chamfer_mm: float = 1.0, count: int | None = None
+) -> Mesh:
     """A cylinder from z = 0 to its length, with chamfered ends."""
     c, r = min(chamfer_mm, length_mm / 3, radius_mm / 2), radius_mm
     return lathe(
@@ -177,7 +215,12 @@ def rod(radius_mm: float, length_mm: float, *, chamfer_mm: float = 1.0, count: i
     )
 
 
-def sweep(path_mm: Points, radius_mm: float, *, count: int = 14) -> Mesh:
+def disc(radius_mm: float, height_mm: float) -> Mesh:
+    """The upper end of a cylinder: its side and its face, for what nobody sees from below."""
+    return lathe([(radius_mm, 0), (radius_mm, height_mm), (0, height_mm)])
+
+
+def sweep(path_mm: Points, radius_mm: float, *, count: int = 12) -> Mesh:
     """A round tube along a path in a plane that is not parallel to (1, 0, 0), shape (N, 3)."""
     tangents = np.gradient(path_mm, axis=0)
     tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)

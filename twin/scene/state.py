@@ -16,6 +16,24 @@ Pose = NDArray[np.float64]
 PlugPlace = Literal["parked", "free", "inserted", "unknown"]
 
 
+@dataclass(frozen=True, slots=True)
+class PlannedPath:
+    """Where the plug's tip goes while a plan is followed.
+
+    Attributes:
+        times_s: Seconds after the plan's start, ascending from 0, shape (N,), N >= 2.
+        tips_mm: Tip at these times in the base frame, shape (N, 3).
+    """
+
+    times_s: NDArray[np.float64]
+    tips_mm: NDArray[np.float64]
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the plan."""
+        return float(self.times_s[-1])
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TwinState:
     """Plain values, so that the scene needs to know neither drivers nor jobs.
@@ -31,6 +49,11 @@ class TwinState:
             car); None shows the car faded at its nominal place.
         T_base_label: Measured pose of the QR label (origin its centre, x right, y down, z into
             the car); None shows it at its nominal place beside the socket.
+        socket_covariance_mm2: Of the socket's origin in the base frame, shape (3, 3); None while
+            it was not measured.
+        parted: Quantities in which robot and model have parted, as `twin.divergence.Quantity`.
+        path: The plan being followed, None while there is none. The same object as long as it
+            is the same plan.
     """
 
     measured: JointPosition | None = None
@@ -41,3 +64,6 @@ class TwinState:
     charging: bool = False
     T_base_socket: Pose | None = None
     T_base_label: Pose | None = None
+    socket_covariance_mm2: NDArray[np.float64] | None = None
+    parted: tuple[str, ...] = ()
+    path: PlannedPath | None = None

@@ -13,6 +13,8 @@ import rich
 import viser
 from viser import _messages as messages
 
+from twin.scene.message_buffer import replay_what_is_kept
+
 if TYPE_CHECKING:
     from viser.infra import WebsockClientConnection
 
@@ -20,8 +22,6 @@ LOOPBACK = "127.0.0.1"
 SEND_BUFFER_BYTES = 32 * 1024
 """Kernel buffer of each connection. The default grows to megabytes, which would be minutes of
 stale poses for a slow phone; with a small one viser sends the newest state instead."""
-
-_COMPACT_FROM_MESSAGES = 100_000
 
 
 def open_server() -> viser.ViserServer:
@@ -36,6 +36,8 @@ def open_server() -> viser.ViserServer:
     raw.unregister_handler(messages.ShareUrlRequest)
     raw.unregister_handler(messages.ShareUrlDisconnect)
 
+    replay_what_is_kept(server)
+
     @raw.on_client_connect
     def _(connection: WebsockClientConnection) -> None:
         live = raw._live_connections.get(connection.client_id)  # noqa: SLF001
@@ -49,37 +51,3 @@ def open_server() -> viser.ViserServer:
 def watchers(server: viser.ViserServer) -> int:
     """Number of connected browsers."""
     return len(server._websock_server._live_connections)  # noqa: SLF001
-
-
-def compact(server: viser.ViserServer, *, from_messages: int = _COMPACT_FROM_MESSAGES) -> bool:
-    """Renumbers the messages that a new browser is sent, once enough numbers were used up.
-
-    viser 1.1.1 looks at every number ever used when a browser joins, about 0.1 s for a million,
-    and does nothing else meanwhile. So the numbers start again while nobody watches.
-
-    Args:
-        server: The server.
-        from_messages: Number of used numbers below which nothing is done.
-
-    Returns:
-        Whether the messages were renumbered; False also when somebody is watching.
-    """
-    buffer = server._websock_server._broadcast_buffer  # noqa: SLF001
-    with buffer.buffer_lock:
-        if (
-            buffer.message_counter < from_messages
-            or buffer.generator_cursors
-            or watchers(server) > 0
-        ):
-            return False
-        number = {old: new for new, old in enumerate(sorted(buffer.message_from_id))}
-        buffer.message_from_id = {new: buffer.message_from_id[old] for old, new in number.items()}
-        buffer.id_from_redundancy_key = {
-            key: number[old] for key, old in buffer.id_from_redundancy_key.items() if old in number
-        }
-        buffer.ids_from_entity_state_key = {
-            key: {number[old] for old in ids}
-            for key, ids in buffer.ids_from_entity_state_key.items()
-        }
-        buffer.message_counter = len(number)
-        return True

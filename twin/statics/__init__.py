@@ -1,14 +1,33 @@
 """Statics of the robot: what its actuators carry and how far it sags."""
 
-from twin.statics.actuators import JointForces, TipForce, actuator_forces, alpha_actuator_forces
-from twin.statics.deflection import Sag, SagTables, sag
+from twin.statics.actuators import (
+    JointForces,
+    TipForce,
+    actuator_forces,
+    alpha_actuator_forces,
+    alpha_actuator_forces_many,
+)
+from twin.statics.along_plan import PlanForces, WorstForce, forces_along
+from twin.statics.deflection import Sag, SagTables, SagValidity, sag
+from twin.statics.limits import ActuatorLimits
+from twin.statics.loads import LoadCase, Loads, actuator_loads, actuator_loads_many
 
 __all__ = [
+    "ActuatorLimits",
     "JointForces",
+    "LoadCase",
+    "Loads",
+    "PlanForces",
     "Sag",
     "SagTables",
+    "SagValidity",
     "TipForce",
+    "WorstForce",
     "actuator_forces",
+    "actuator_loads",
+    "actuator_loads_many",
     "alpha_actuator_forces",
+    "alpha_actuator_forces_many",
+    "forces_along",
     "sag",
 ]

@@ -10,11 +10,16 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import alpha, gamma
 from twin.kinematics.alpha import LegVectors
 from twin.kinematics.errors import LegsCannotCloseError
+
+Array = NDArray[np.float64]
 
 
 class TipForce(NamedTuple):
@@ -66,3 +71,29 @@ def actuator_forces(geometry: RobotGeometry, joints: JointPosition, force: TipFo
     rho1_n, rho2_n = alpha_actuator_forces(legs, force.x_n, force.y_n)
     _, axis_y, axis_z = geometry.insertion_axis
     return JointForces(rho1_n, rho2_n, force.y_n * axis_y + force.z_n * axis_z)
+
+
+def alpha_actuator_forces_many(
+    geometry: RobotGeometry, rho_mm: Array, fx_n: float, fy_n: float
+) -> Array:
+    """Forces of the two carriages at many poses that make the platform push with (fx, fy).
+
+    Args:
+        geometry: The robot.
+        rho_mm: (rho1, rho2), shape (..., 2) [mm].
+        fx_n: Along the rail [N].
+        fy_n: Away from the rail [N].
+
+    Returns:
+        Forces [N], shape (..., 2); NaN where no pose exists or the legs are folded flat.
+    """
+    v = alpha.forward_many(geometry, rho_mm)
+    left_mm, right_mm = alpha.feet_mm(geometry, 0.0, 0.0)
+    d1, h1 = v[..., 0] - left_mm - rho_mm[..., 0], v[..., 1] - geometry.e1y_mm
+    d2, h2 = right_mm - rho_mm[..., 1] - v[..., 0], v[..., 1] - geometry.e2y_mm
+    det = d1 * h2 + d2 * h1
+    det = np.where(det == 0, np.nan, det)
+    forces: Array = np.stack(
+        (d1 * (h2 * fx_n + d2 * fy_n) / det, d2 * (d1 * fy_n - h1 * fx_n) / det), axis=-1
+    )
+    return forces

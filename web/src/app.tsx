@@ -1,10 +1,13 @@
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
+import { History } from "@/parts/history";
 import { Progress } from "@/parts/progress";
+import { ReplayDialog } from "@/parts/replay";
 import { RobotCard } from "@/parts/robot-card";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
+import { TwinAlarm } from "@/parts/twin-alarm";
 import { Views } from "@/parts/views";
 
 /** The home page. */
@@ -15,17 +18,20 @@ export function App() {
       <main class="page">
         <div class="column">
           <Hero />
+          <TwinAlarm />
           <StationCard />
         </div>
         <div class="column">
           <Progress />
           <Views />
+          <History />
           <RobotCard />
         </div>
       </main>
       <StopBar />
       <QuestionDialog />
       <ChoiceDialog />
+      <ReplayDialog />
     </>
   );
 }

@@ -29,3 +29,21 @@ export function formatForce(force_n: number): string {
 export function formatPoint(point: { x_mm: number; y_mm: number; z_mm: number }): string {
   return [point.x_mm, point.y_mm, point.z_mm].map((value) => value.toFixed(1)).join(" / ") + " mm";
 }
+
+/** Bytes as "340 kB" or "1.5 MB". */
+export function formatSize(size_bytes: number): string {
+  if (size_bytes < 1e6) return `${Math.ceil(size_bytes / 1000).toFixed(0)} kB`;
+  return `${(size_bytes / 1e6).toFixed(1)} MB`;
+}
+
+/** Day and time as the reader's own country writes them. */
+export function formatDate(date: string): string {
+  return DATE.format(Date.parse(date));
+}
+
+const DATE = new Intl.DateTimeFormat(undefined, {
+  day: "numeric",
+  month: "short",
+  hour: "2-digit",
+  minute: "2-digit",
+});

@@ -8,6 +8,7 @@ import "./style/cards.css";
 import "./style/steps.css";
 import "./style/views.css";
 import "./style/picture.css";
+import "./style/history.css";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("index.html has no element #app");

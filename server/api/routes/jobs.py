@@ -62,7 +62,8 @@ async def list_jobs(
     """Jobs, newest first."""
     jobs = await services.jobs.page(before=_job_id_in(cursor), limit=limit + 1)
     more = len(jobs) > limit
-    return JobPage(items=jobs[:limit], next_cursor=jobs[limit - 1].id if more else None)
+    shown = [services.recordings.show(job) for job in jobs[:limit]]
+    return JobPage(items=shown, next_cursor=jobs[limit - 1].id if more else None)
 
 
 @router.get("/{job_id}", operation_id="getJob", responses=problem_responses(404))
@@ -71,7 +72,7 @@ async def get_job(job_id: JobId, services: ServicesDep) -> Job:
     job = await services.jobs.get(job_id)
     if job is None:
         raise JobNotFoundError(f"There is no job {job_id}.", job_id=job_id)
-    return job
+    return services.recordings.show(job)
 
 
 @router.post(

@@ -19,6 +19,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
+from server.api.twin.frames import WORTHWHILE_BYTES, repacked
+
 logger = logging.getLogger(__name__)
 
 AllowedClientMessages = Callable[[WebSocket], frozenset[str]]
@@ -95,6 +97,8 @@ async def _upstream(port: int) -> AsyncIterator[ClientConnection]:
 async def _to_browser(upstream: ClientConnection, ws: WebSocket) -> None:
     async for frame in upstream:
         if isinstance(frame, bytes):
+            if len(frame) >= WORTHWHILE_BYTES:
+                frame = await asyncio.to_thread(repacked, frame)  # noqa: PLW2901 - the same frame
             # A frozen tab or a lost phone takes nothing for a while; it reconnects when it can.
             async with asyncio.timeout(SEND_TIMEOUT_S):
                 await ws.send_bytes(frame)

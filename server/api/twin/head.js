@@ -1,8 +1,6 @@
 // Runs before the 3D client, in the same page.
-"use strict";
-
 // The colour scheme is dark unless the address says ?theme=light.
-// A window narrower than high sees as much from left to right as a square one does.
+// A window narrower than high sees the whole robot from left to right.
 {
   const query = new URLSearchParams(location.search);
   const light = query.get("theme") === "light";
@@ -11,8 +9,8 @@
   document.documentElement.dataset.theme = light ? "light" : "dark";
   const aspect = innerWidth / Math.max(innerHeight, 1);
   if (aspect < 1 && !query.has("initialCameraFov")) {
-    const square = 46 * (Math.PI / 180);
-    const fov = 2 * Math.atan(Math.tan(square / 2) / Math.max(aspect, 0.45));
+    const across = 42 * (Math.PI / 180);
+    const fov = 2 * Math.atan(Math.tan(across / 2) / Math.max(aspect, 0.45));
     query.set("initialCameraFov", fov.toFixed(3));
   }
   history.replaceState(null, "", location.pathname + "?" + query.toString());
@@ -23,12 +21,6 @@
 document.hasFocus = () => document.visibilityState === "visible";
 document.addEventListener("visibilitychange", () => {
   window.dispatchEvent(new Event(document.hidden ? "blur" : "focus"));
-});
-
-// The client loads a sorter for point splats, which wants to build code from text. The policy
-// refuses that, and this picture has no splats.
-addEventListener("unhandledrejection", (event) => {
-  if (event.reason instanceof EvalError) event.preventDefault();
 });
 
 // Phones drop the graphics context of hidden pages; what comes back has lost its lights.

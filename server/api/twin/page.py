@@ -5,37 +5,16 @@ from __future__ import annotations
 import base64
 import gzip
 import hashlib
-import importlib.util
-import re
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-import zstandard
-from numpy.typing import NDArray
+from server.api.twin.client import small_client
+from twin.scene.overlays import OVERLAYS
 
 _HERE = Path(__file__).parent
-_LOADER = re.compile(
-    r'<script data-p="(?P<packed>[^"]*)" data-ss="(?P<style>\d+)" data-cs="(?P<code>\d+)">'
-    r"(?P<loader>.*?)</script>",
-    re.DOTALL,
-)
-_ALPHABET = (
-    "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
-)
-
-
-def _client_page() -> Path:
-    """The installed client's page, found without loading the 3D library."""
-    spec = importlib.util.find_spec("viser")
-    if spec is None or spec.origin is None:
-        msg = "The 3D client is not installed; install viser."
-        raise ClientPageError(msg)
-    return Path(spec.origin).parent / "client" / "build" / "index.html"
-
-
-class ClientPageError(RuntimeError):
-    """The installed 3D client is not built the way this module knows."""
+_SCRIPTS = ("head.js", "layers.js", "camera.js", "playback.js")
+_STYLES = ("head.css", "layers.css")
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,30 +25,18 @@ class TwinPage:
         gzipped: HTML, gzip.
         etag: Entity tag of the HTML, quoted.
         content_security_policy: Allows these scripts and nothing from elsewhere.
+        client: The 3D client that the page fetches, packed for the page's own loader.
     """
 
     gzipped: bytes
     etag: str
     content_security_policy: str
+    client: bytes
 
     @property
     def html(self) -> bytes:
         """HTML for a client that does not take gzip."""
         return gzip.decompress(self.gzipped)
-
-
-def unpack_base88(text: str) -> bytes:
-    """Decodes the client's packing: five characters of a base of 88 make four bytes."""
-    digit = np.zeros(128, dtype=np.uint64)
-    digit[np.frombuffer(_ALPHABET.encode(), dtype=np.uint8)] = np.arange(88)
-    digits = digit[np.frombuffer(text.encode("ascii"), dtype=np.uint8)]
-    whole, rest = divmod(len(digits), 5)
-    powers = np.array([88**4, 88**3, 88**2, 88, 1], dtype=np.uint64)
-    words: NDArray[np.uint64] = digits[: whole * 5].reshape(-1, 5) @ powers
-    tail = 0
-    for value in digits[whole * 5 :]:
-        tail = tail * 88 + int(value)
-    return words.astype(">u4").tobytes() + tail.to_bytes(max(rest - 1, 0), "big")
 
 
 def _hash_source(script: bytes) -> str:
@@ -94,38 +61,35 @@ def _policy(scripts: list[bytes]) -> str:
     )
 
 
+def _own_script() -> str:
+    """Our scripts, each in a block of its own, after the list of what can be switched."""
+    layers = [
+        {"id": each.id, "title": each.title, "nodes": each.nodes, "on": each.shown_at_first}
+        for each in OVERLAYS
+    ]
+    parts = [(_HERE / name).read_text(encoding="utf-8") for name in _SCRIPTS]
+    blocks = "".join(f"{{\n{part}}}\n" for part in parts)
+    return f'"use strict";\nconst LAYERS = {json.dumps(layers)};\n{blocks}'
+
+
 def build_page() -> TwinPage:
     """Puts our head into the installed client's page and works out its policy.
 
-    The client is one script that unpacks a second one; both are allowed by their hashes.
+    The client is one script that fetches a second one; both are allowed by their hashes.
 
     Raises:
         ClientPageError: The client was built in another way than the pinned version's.
     """
-    html = _client_page().read_text(encoding="utf-8")
-    found = _LOADER.search(html)
-    if found is None:
-        msg = "The 3D client's page has changed; pin viser to the version in pyproject.toml."
-        raise ClientPageError(msg)
-    style_bytes, code_bytes = int(found["style"]), int(found["code"])
-    try:
-        unpacked = zstandard.ZstdDecompressor().decompress(
-            unpack_base88(found["packed"]), max_output_size=style_bytes + code_bytes
-        )
-    except zstandard.ZstdError as error:
-        msg = "The 3D client's page cannot be unpacked; reinstall viser."
-        raise ClientPageError(msg) from error
-    if len(unpacked) != style_bytes + code_bytes:
-        msg = "The 3D client's page has an unexpected length; reinstall viser."
-        raise ClientPageError(msg)
-    script = (_HERE / "head.js").read_text(encoding="utf-8")
-    style = (_HERE / "head.css").read_text(encoding="utf-8")
+    client = small_client()
+    script = _own_script()
+    style = "".join((_HERE / name).read_text(encoding="utf-8") for name in _STYLES)
+    sizes = f'data-ss="{client.style_bytes}" data-cs="{len(client.code)}"'
     head = f"<title>Digital twin</title><script>{script}</script><style>{style}</style>"
-    raw = (html[: found.start()] + head + html[found.start() :]).encode()
+    loader = f"<script {sizes}>{client.loader}</script>"
+    raw = (client.before + head + loader + client.after).encode()
     return TwinPage(
         gzipped=gzip.compress(raw, 9, mtime=0),
         etag=f'"{hashlib.sha256(raw).hexdigest()[:20]}"',
-        content_security_policy=_policy(
-            [script.encode(), found["loader"].encode(), unpacked[style_bytes:]]
-        ),
+        content_security_policy=_policy([script.encode(), client.loader.encode(), client.code]),
+        client=client.packed,
     )

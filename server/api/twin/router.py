@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import functools
+from collections.abc import AsyncIterator
 
-from fastapi import APIRouter, Request, Response, WebSocket
+from fastapi import APIRouter, FastAPI, Request, Response, WebSocket
 from fastapi.responses import HTMLResponse, RedirectResponse
 
+from drivers.camera import CameraError
+from server.api.dependencies import ServicesDep
+from server.api.errors import CameraFailedError
 from server.api.twin.bridge import AllowedClientMessages, bridge, viewer_messages
+from server.api.twin.camera_picture import small_picture
+from server.api.twin.client import CLIENT_PATH
 from server.api.twin.page import TwinPage, build_page
 from twin.scene import TwinHost
 
@@ -29,15 +37,25 @@ def twin_router(
         host: The picture; started and stopped by the caller.
         allowed_client_messages: What a connected browser may send, by who it belongs to.
     """
-    router = APIRouter(tags=["twin"], include_in_schema=False)
     page: asyncio.Task[TwinPage] | None = None
 
     async def built_page() -> TwinPage:
-        """Compressing takes a tenth of a second: done once, when first asked, in a thread."""
+        """Packing takes a second or more: done once, in a thread."""
         nonlocal page
         if page is None or (page.done() and page.exception() is not None):
-            page = asyncio.create_task(asyncio.to_thread(build_page))
+            page = asyncio.create_task(asyncio.to_thread(_page_of_this_process))
         return await asyncio.shield(page)
+
+    @contextlib.asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        """The first viewer should not wait for the packing, and the start of the server not."""
+        early = asyncio.create_task(built_page(), name="pack the 3D client")
+        try:
+            yield
+        finally:
+            await asyncio.gather(early, return_exceptions=True)  # told to whoever asks for it
+
+    router = APIRouter(tags=["twin"], include_in_schema=False, lifespan=lifespan)
 
     @router.get("/twin")
     async def without_slash(request: Request) -> RedirectResponse:
@@ -54,12 +72,35 @@ def twin_router(
             )
         return _respond(request, await built_page())
 
+    @router.get(f"/twin/{CLIENT_PATH}")
+    async def client_of_page() -> Response:
+        """Packed by itself; its address changes with it, so a browser asks for it once."""
+        return Response(
+            (await built_page()).client,
+            media_type="application/octet-stream",
+            headers={"Cache-Control": "private, max-age=31536000, immutable"},
+        )
+
+    @router.get("/twin/camera.jpg")
+    async def camera_picture(services: ServicesDep) -> Response:
+        """What the camera sees, small: the page asks for it while somebody wants to see it."""
+        try:
+            picture = await small_picture(services.camera)
+        except CameraError as error:
+            raise CameraFailedError(str(error)) from error
+        return Response(picture, media_type="image/jpeg", headers={"Cache-Control": "no-store"})
+
     @router.websocket("/twin")  # the client takes the slash off its page's address
     @router.websocket("/twin/")
     async def frames(ws: WebSocket) -> None:
         await bridge(ws, host.port, allowed_client_messages)
 
     return router
+
+
+@functools.cache
+def _page_of_this_process() -> TwinPage:
+    return build_page()
 
 
 async def _is_ready(host: TwinHost) -> bool:

@@ -109,6 +109,8 @@ async def test_what_is_pushed_adds_up_to_what_rest_says(server: ServerProcess) -
         while page.live["job"]["state"] in {"queued", "running"}:
             await page.take()
         assert page.live["job"]["error"] is None
+        while page.live["job"]["recording"] is None:
+            await page.take()
         assert page.live["job"] == (await client.get(f"jobs/{job['id']}")).json()
         assert page.live["robot"]["plug"] == "inserted"
         await client.post("jobs", json={"type": "unplug"})

@@ -26,7 +26,7 @@ def test_help_lists_the_subcommands_without_importing_them() -> None:
     result = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     )
-    for name in ("serve", "simulate", "locate", "config", "version"):
+    for name in ("serve", "simulate", "workspace", "locate", "config", "version"):
         assert f"\n  {name} " in result.stdout
     assert result.stderr.strip() == ""
 

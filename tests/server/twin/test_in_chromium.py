@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Awaitable, Callable
 from typing import Any
 
+import cv2
+import numpy as np
 import pytest
-from playwright.async_api import Browser, Page, ViewportSize
+from playwright.async_api import Browser, Page, Request, Route, ViewportSize
 
 from tests.server.twin.conftest import Serve
 from tests.support.eventually import eventually
@@ -20,7 +23,15 @@ pytestmark = pytest.mark.browser
 SMALL: ViewportSize = {"width": 160, "height": 120}
 """Software graphics are slow."""
 HOME = JointPosition(200.0, 200.0, 60.0)
-NODES = ["/robot/bar_ab", "/robot/platform/plug", "/car/inlet", "/label", "/cable", "/region/edges"]
+PICTURE = "/robot/platform/camera/view/picture"
+NODES = [
+    "/robot/bar_ab",
+    "/robot/platform/plug",
+    "/car/inlet",
+    "/label",
+    "/cable",
+    "/overlays/box/edges",
+]
 
 
 async def open_twin(browser: Browser, address: str, path: str = "/twin/") -> Page:
@@ -108,3 +119,85 @@ async def test_it_is_dark_unless_asked_to_be_light(
         await page.wait_for_selector("canvas", state="attached", timeout=30_000)
         scheme = await page.get_attribute("html", "data-mantine-color-scheme")
         assert scheme == ("dark" if dark else "light")
+
+
+async def test_layers_are_switched_by_each_viewer_for_himself(
+    chromium: Browser, host: TwinHost, serve: Serve
+) -> None:
+    host.publish(TwinState(measured=HOME))
+    async with serve(host) as address:
+        mine = await chromium.new_context(viewport=SMALL)
+        page = await mine.new_page()
+        received = watch_bytes(page)
+        await page.goto(f"http://{address}/twin/?fixedDpr=0.25")
+        await until_shown(page, "/overlays/path", shown=True)
+        await until_shown(page, "/overlays/condition/map", shown=False)
+        assert await received() < 700_000
+
+        await page.locator("#twin-bar button").first.click()
+        # Beyond the edge of this small window: clicked as a keyboard would.
+        await page.locator("[data-layer=condition]").dispatch_event("click")
+        await page.locator("[data-layer=path]").dispatch_event("click")
+        await until_shown(page, "/overlays/condition/map", shown=True)
+        await until_shown(page, "/overlays/path", shown=False)
+
+        kept = await page.evaluate("() => JSON.parse(localStorage['plugpilot.twin.layers'])")
+        assert kept == {"condition": True, "path": False}
+
+        await page.close()
+        another = await (await chromium.new_context(viewport=SMALL)).new_page()
+        await another.goto(f"http://{address}/twin/?fixedDpr=0.25")
+        await until_shown(another, "/overlays/path", shown=True)
+        await until_shown(another, "/overlays/condition/map", shown=False)
+
+
+async def test_the_cameras_picture_is_fetched_only_while_it_is_shown(
+    chromium: Browser, host: TwinHost, serve: Serve
+) -> None:
+    host.publish(TwinState(measured=HOME))
+    asked: list[str] = []
+    picture = cv2.imencode(".jpg", np.full((24, 32), 90, np.uint8))[1].tobytes()
+
+    async def answer(route: Route) -> None:
+        asked.append(route.request.url)
+        await route.fulfill(body=picture, content_type="image/jpeg")
+
+    async with serve(host) as address:
+        page = await chromium.new_page(viewport=SMALL)
+        await page.route("**/camera.jpg", answer)
+        await page.goto(f"http://{address}/twin/?fixedDpr=0.25")
+        await until_shown(page, "/overlays/path", shown=True)
+        await until_shown(page, PICTURE, shown=False)
+        assert asked == []
+        await page.locator("[data-layer=camera]").dispatch_event("click")
+
+        async def is_laid_in() -> bool:
+            size = "name => window.__viserSceneTree.getState()[name].message.props._data.length"
+            return bool(await page.evaluate(size, PICTURE) == len(picture))
+
+        await eventually(is_laid_in, within_s=15)
+        assert asked
+
+
+def watch_bytes(page: Page) -> Callable[[], Awaitable[int]]:
+    """Counts what the page downloads, packed as it comes over the wire."""
+    bodies: list[Request] = []
+    frames: list[int] = []
+    page.on("requestfinished", lambda request: bodies.append(request))  # noqa: PLW0108 - it is marked
+    page.on("websocket", lambda ws: ws.on("framereceived", lambda raw: frames.append(len(raw))))
+
+    async def total() -> int:
+        sizes = [await request.sizes() for request in bodies if request.url.startswith("http")]
+        return sum(frames) + sum(s["responseBodySize"] + s["responseHeadersSize"] for s in sizes)
+
+    return total
+
+
+async def until_shown(page: Page, node: str, *, shown: bool) -> None:
+    """Waits until a node is there and shown, or hidden."""
+    effective = "name => window.__viserSceneTree?.getState()[name]?.effectiveVisibility"
+
+    async def is_so() -> bool:
+        return bool(await page.evaluate(effective, node) is shown)
+
+    await eventually(is_so, within_s=20)

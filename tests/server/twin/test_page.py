@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import base64
-import gzip
 import hashlib
+import json
 import math
 import re
 import subprocess
@@ -14,15 +14,18 @@ from pathlib import Path
 
 import httpx
 import pytest
+import zstandard
 from fastapi import FastAPI
 
-from server.api.twin import page as page_module
+from server.api.twin import client as client_module
 from server.api.twin import router as router_module
 from server.api.twin import twin_router
-from server.api.twin.page import ClientPageError, TwinPage, build_page, unpack_base88
+from server.api.twin.client import CLIENT_PATH, ClientPageError, unpack_base88
+from server.api.twin.page import TwinPage, build_page
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.scene import TwinHost
+from twin.scene.overlays import OVERLAYS
 
 
 class ReadyHost(TwinHost):
@@ -68,7 +71,7 @@ def test_importing_the_routes_loads_no_3d_library() -> None:
 
 def test_our_script_runs_before_the_client(page: TwinPage) -> None:
     html = page.html.decode()
-    ours, theirs = html.index("document.hasFocus"), html.index("data-p=")
+    ours, theirs = html.index("document.hasFocus"), html.index("data-ss=")
     assert html.index("<head>") < ours < theirs
 
 
@@ -92,7 +95,6 @@ async def test_it_comes_compressed_to_who_can_read_that(client: httpx.AsyncClien
     assert packed.status_code == plain.status_code == 200
     assert packed.headers["content-encoding"] == "gzip"
     assert "content-encoding" not in plain.headers
-    assert int(packed.headers["content-length"]) < 700_000
     assert packed.text == plain.text
     assert packed.headers["vary"] == "Accept-Encoding"
     assert "default-src 'none'" in packed.headers["content-security-policy"]
@@ -125,16 +127,68 @@ async def test_before_the_picture_is_ready_it_asks_to_come_back(
     assert (await client.get("/twin/")).status_code == 200
 
 
+@pytest.mark.parametrize(
+    ("part", "instead"),
+    [
+        ('data-p="', 'data-q="'),
+        ("const a=de(d.p);", "const a=other(d.p);"),
+    ],
+)
 def test_a_client_built_in_another_way_is_refused(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, page: TwinPage
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, part: str, instead: str
 ) -> None:
+    installed = client_module.client_page().read_text(encoding="utf-8")
     other = tmp_path / "index.html"
-    monkeypatch.setattr(page_module, "_client_page", lambda: other)
-    other.write_text("<html><script src=main.js></script></html>")
+    monkeypatch.setattr(client_module, "client_page", lambda: other)
+    other.write_text(installed.replace(part, instead))
     with pytest.raises(ClientPageError, match="pin viser"):
         build_page()
-    broken = gzip.decompress(page.gzipped).decode()
-    at = broken.index('data-p="') + 5000
-    other.write_text(broken[:at] + "!!!!!" + broken[at + 5 :])
+
+
+def test_a_damaged_client_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    installed = client_module.client_page().read_text(encoding="utf-8")
+    at = installed.index('data-p="') + 5000
+    other = tmp_path / "index.html"
+    monkeypatch.setattr(client_module, "client_page", lambda: other)
+    other.write_text(installed[:at] + "!!!!!" + installed[at + 5 :])
     with pytest.raises(ClientPageError):
         build_page()
+
+
+@pytest.mark.parametrize("hook", ["_TEST_HOOK", "_SURROUNDINGS"])
+def test_a_client_that_changed_inside_is_refused(
+    monkeypatch: pytest.MonkeyPatch, hook: str
+) -> None:
+    absent = {"_TEST_HOOK": b"no such text", "_SURROUNDINGS": re.compile(b"no such text")}
+    monkeypatch.setattr(client_module, hook, absent[hook])
+    with pytest.raises(ClientPageError, match="changed inside"):
+        build_page()
+
+
+async def test_the_client_comes_once_for_all_time(
+    client: httpx.AsyncClient, page: TwinPage
+) -> None:
+    (address,) = re.findall(rf'fetch\("({CLIENT_PATH}[^"]*)"\)', page.html.decode())
+    packed = await client.get(f"/twin/{address}")
+    assert packed.status_code == 200
+    assert packed.content == page.client
+    assert "immutable" in packed.headers["cache-control"]
+
+
+def test_the_loader_can_unpack_what_it_fetches(page: TwinPage) -> None:
+    raw = zstandard.ZstdDecompressor().decompress(page.client)
+    (style_bytes, code_bytes) = (
+        int(re.findall(rf'data-{name}="(\d+)"', page.html.decode())[0]) for name in ("ss", "cs")
+    )
+    assert len(raw) == style_bytes + code_bytes
+    digest = base64.b64encode(hashlib.sha256(raw[style_bytes:]).digest()).decode()
+    assert f"'sha256-{digest}'" in page.content_security_policy
+
+
+def test_what_a_phone_downloads_is_small(page: TwinPage) -> None:
+    assert len(page.gzipped) + len(page.client) < 612_000
+
+
+def test_the_page_lists_the_scenes_overlays(page: TwinPage) -> None:
+    (text,) = re.findall(r"const LAYERS = (.*);", page.html.decode())
+    assert [each["id"] for each in json.loads(text)] == [each.id for each in OVERLAYS]

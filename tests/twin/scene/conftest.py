@@ -10,8 +10,9 @@ import viser
 
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
-from twin.scene import viser_server
+from twin.scene import Cable, viser_server
 from twin.scene.scene import TwinScene
+from twin.statics import SagTables
 
 
 @pytest.fixture
@@ -28,5 +29,17 @@ def geometry() -> RobotGeometry:
 
 @pytest.fixture
 def scene(server: viser.ViserServer, geometry: RobotGeometry) -> TwinScene:
-    mount = CameraMount()
-    return TwinScene(server.scene, geometry, mount, hfov_rad=math.radians(62.2), aspect=4 / 3)
+    return build_scene(server, geometry)
+
+
+def build_scene(server: viser.ViserServer, geometry: RobotGeometry) -> TwinScene:
+    """The scene of any robot with everything else as published."""
+    return TwinScene(
+        server.scene,
+        geometry,
+        CameraMount(),
+        hfov_rad=math.radians(62.2),
+        aspect=4 / 3,
+        cable=Cable(),
+        sag=SagTables(),
+    )

@@ -77,3 +77,12 @@ def test_the_label_is_a_code_that_a_camera_reads() -> None:
     assert image is not None
     text, _, _ = cv2.QRCodeDetector().detectAndDecode(cv2.resize(image, None, fx=2, fy=2))
     assert text == "PLUGPILOT"
+
+
+@pytest.mark.parametrize("theta_rad", [-0.3, -0.17, 0.0, 0.1])
+def test_the_opaque_front_ends_before_the_body_begins_to_fade(theta_rad: float) -> None:
+    front, rear = car._nose(theta_rad)
+    assert rear.alpha is not None
+    corners = front.vertices_mm[front.faces]
+    assert rear.alpha[front.faces].min() == 1.0, corners[..., 2].max()
+    assert rear.alpha[rear.faces].min() < 0.05

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from twin.geometry import RobotGeometry
 from twin.scene import car, plug_parts, robot_parts, room
 from twin.scene.glb import Part, to_glb
-from twin.scene.materials import LAMP, PAINT_FADING, STEEL, Material
-from twin.scene.shapes import Mesh, quad, rod
+from twin.scene.materials import GUESSED, LAMP, PAINT_FADING, STEEL, Material
+from twin.scene.shapes import Mesh, quad, rod, without_waste
 
 
 def read(glb: bytes) -> tuple[dict[str, Any], bytes]:
@@ -39,21 +39,47 @@ def array(document: dict[str, Any], data: bytes, index: int) -> NDArray[Any]:
     width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[accessor["type"]]
     dtype = {5126: "<f4", 5123: "<u2", 5121: "u1"}[accessor["componentType"]]
     assert view["byteOffset"] % 4 == 0
-    count = accessor["count"] * width
-    return np.frombuffer(data, dtype, count, view["byteOffset"]).reshape(-1, width)
+    stride = view.get("byteStride", width * np.dtype(dtype).itemsize)
+    shape = (accessor["count"], width)
+    strides = (stride, np.dtype(dtype).itemsize)
+    return np.ndarray(shape, dtype, data, view["byteOffset"], strides)
 
 
 def test_positions_come_out_in_metres_and_faces_unchanged() -> None:
     mesh = rod(20, 100)
     document, data = read(to_glb([(mesh, STEEL)]))
     primitive = document["meshes"][0]["primitives"][0]
-    positions = array(document, data, primitive["attributes"]["POSITION"])
-    assert positions == pytest.approx(mesh.vertices_mm / 1000, abs=1e-7)
+    steps = array(document, data, primitive["attributes"]["POSITION"])
+    node = document["nodes"][0]
+    positions = steps * node["scale"][0] + node["translation"]
+    used = without_waste(mesh)
+    # A step is the largest extent, 100 mm, divided by 65535.
+    assert positions == pytest.approx(used.vertices_mm / 1000, abs=0.8e-6)
+    assert len(set(node["scale"])) == 1
     bounds = document["accessors"][primitive["attributes"]["POSITION"]]
-    assert bounds["min"] == pytest.approx(positions.min(axis=0).tolist())
-    assert bounds["max"] == pytest.approx(positions.max(axis=0).tolist())
+    assert bounds["min"] == steps.min(axis=0).tolist()
+    assert bounds["max"] == steps.max(axis=0).tolist()
     faces = array(document, data, primitive["indices"]).reshape(-1, 3)
-    assert (faces == mesh.faces).all()
+    assert (faces == used.faces).all()
+
+
+def test_what_is_round_is_shaded_round_though_no_normals_are_sent() -> None:
+    document, _ = read(to_glb([(rod(20, 100), STEEL)]))
+    attributes = document["meshes"][0]["primitives"][0]["attributes"]
+    normals = document["accessors"][attributes["NORMAL"]]
+    # Without normals a browser shades facets; with zeros it works them out.
+    assert "bufferView" not in normals
+    assert normals["count"] == document["accessors"][attributes["POSITION"]]["count"]
+
+
+def test_triangles_without_area_and_unused_vertices_are_left_out() -> None:
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]], dtype=float)
+    faces = np.array([[0, 1, 2], [0, 1, 1]], dtype=np.uint32)
+    mesh = without_waste(Mesh(vertices, faces, alpha=np.array([0.1, 0.2, 0.3, 0.4])))
+    assert mesh.vertices_mm.tolist() == vertices[:3].tolist()
+    assert mesh.faces.tolist() == [[0, 1, 2]]
+    assert mesh.alpha is not None
+    assert mesh.alpha.tolist() == [0.1, 0.2, 0.3]
 
 
 def test_parts_of_one_material_are_one_mesh() -> None:
@@ -90,6 +116,14 @@ def test_too_many_vertices_are_refused() -> None:
         to_glb([(rod(1, 1, count=20_000), STEEL)])
 
 
+def test_what_is_seen_through_says_so() -> None:
+    document, _ = read(to_glb([(rod(1, 1), GUESSED), (rod(2, 2), LAMP)]))
+    through, solid = document["materials"]
+    assert through["alphaMode"] == "BLEND"
+    assert through["pbrMetallicRoughness"]["baseColorFactor"][3] == GUESSED.opacity
+    assert "alphaMode" not in solid
+
+
 EVERY_PART: dict[str, Callable[[RobotGeometry], list[Part]]] = {
     "rails": robot_parts.rails,
     "left carriage": robot_parts.left_carriage,
@@ -105,7 +139,7 @@ EVERY_PART: dict[str, Callable[[RobotGeometry], list[Part]]] = {
     "plug": lambda _: plug_parts.plug(),
     "body": lambda g: car.body(g.theta_rad),
     "inlet": lambda _: car.inlet(),
-    "wheels": lambda _: car.wheels(),
+    "wheel": lambda _: car.wheel(),
     "label": lambda _: car.label(),
 }
 

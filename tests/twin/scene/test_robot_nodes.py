@@ -117,8 +117,17 @@ def test_joints_without_a_pose_hide_the_robot_and_are_reported_once(
         scene.show(TwinState(measured=impossible, force_n=1))
     assert not is_visible(scene.robot.robot)
     assert len(caplog.records) == 1
+    assert is_visible(scene.notice)
+    assert "No pose" in scene.notice.text
     scene.show(TwinState(measured=HOME))
     assert is_visible(scene.robot.robot)
+    assert not is_visible(scene.notice)
+
+
+def test_a_joint_outside_its_range_is_named(scene: TwinScene) -> None:
+    scene.show(TwinState(measured=JointPosition(432.0, 419.0, 60.0)))
+    assert is_visible(scene.notice)
+    assert scene.notice.text == "rho1 is 12 mm outside its range"
 
 
 def test_the_ghost_shows_where_a_parted_plug_should_be(
@@ -130,16 +139,6 @@ def test_the_ghost_shows_where_a_parted_plug_should_be(
     scene.show(TwinState(measured=HOME, commanded=far))
     assert is_visible(scene.robot.ghost)
     assert at_mm(scene.robot.ghost) == pytest.approx(tuple(gamma.forward(geometry, far)), abs=1e-6)
-
-
-def test_the_arrow_points_where_the_force_pushes_the_plug(scene: TwinScene) -> None:
-    scene.show(TwinState(measured=HOME, force_n=1.0))
-    assert not is_visible(scene.robot.force)
-    scene.show(TwinState(measured=HOME, force_n=70.0))
-    assert is_visible(scene.robot.force)
-    assert np.asarray(scene.robot.force.scale)[2] == pytest.approx(-0.105)
-    scene.show(TwinState(measured=HOME, force_n=-20.0))
-    assert np.asarray(scene.robot.force.scale)[2] == pytest.approx(0.03)
 
 
 def test_light_runs_along_the_cable_only_while_charging(scene: TwinScene) -> None:

@@ -18,14 +18,8 @@ def address_of(server: viser.ViserServer) -> str:
     return f"ws://{viser_server.LOOPBACK}:{server.get_port()}"
 
 
-def buffer_of(server: viser.ViserServer):  # type: ignore[no-untyped-def]  # noqa: ANN201 - private class
-    return server._websock_server._broadcast_buffer
-
-
 async def until_nobody_watches(server: viser.ViserServer) -> None:
-    await eventually(
-        lambda: not viser_server.watchers(server) and not buffer_of(server).generator_cursors
-    )
+    await eventually(lambda: not viser_server.watchers(server))
 
 
 def test_the_hooks_are_those_of_this_version() -> None:
@@ -74,40 +68,3 @@ async def test_watchers_come_and_go(server: viser.ViserServer) -> None:
         await client.until_replayed()
         assert viser_server.watchers(server) == 1
     await until_nobody_watches(server)
-
-
-async def test_renumbering_keeps_what_a_new_browser_sees(server: viser.ViserServer) -> None:
-    nodes = [server.scene.add_frame(f"/node{i}") for i in range(3)]
-    removed = server.scene.add_frame("/removed")
-    for step in range(50):
-        for i, node in enumerate(nodes):
-            node.position = (float(step + 1), float(i), 0.0)
-    removed.remove()
-    used = buffer_of(server).message_counter
-    assert viser_server.compact(server, from_messages=1)
-    assert buffer_of(server).message_counter == len(buffer_of(server).message_from_id) < used / 3
-
-    nodes[0].position = (77.0, 0.0, 0.0)  # replaces its older message, not another's
-    nodes[1].visible = False
-    async with TwinClient.connected(address_of(server)) as client:
-        await client.until_replayed()
-        assert client.positions["/node0"] == pytest.approx((77, 0, 0))
-        assert client.positions["/node1"] == pytest.approx((50, 1, 0))
-        assert client.positions["/node2"] == pytest.approx((50, 2, 0))
-        assert client.visible["/node1"] is False
-        assert {"/node0", "/node1", "/node2"} <= set(client.created)
-        assert "/removed" not in client.created
-        nodes[2].position = (5.0, 5.0, 5.0)
-        await client.until_position("/node2", 5.0)
-
-
-async def test_nothing_is_renumbered_under_a_watching_browser(server: viser.ViserServer) -> None:
-    async with TwinClient.connected(address_of(server)) as client:
-        await client.until_replayed()
-        assert not viser_server.compact(server, from_messages=1)
-    await until_nobody_watches(server)
-    assert viser_server.compact(server, from_messages=1)
-
-
-def test_few_messages_are_left_alone(server: viser.ViserServer) -> None:
-    assert not viser_server.compact(server)

@@ -1,12 +1,14 @@
 /** Calls to the REST API; every failure becomes a Refusal with words for a person. */
 import { words } from "@/words";
 import { randomKey } from "./key";
-import type { Job, JobRequest, StopKind, VehicleList } from "./wire";
+import type { Job, JobPage, JobRequest, Playback, StopKind, VehicleList } from "./wire";
 
 const ROOT = "/api/v1";
 const PATIENCE_MS = 10_000;
 const STOP_PATIENCE_MS = 3_000;
 const START_ATTEMPTS = 3;
+const PLAYBACK_PATIENCE_MS = 180_000;
+const JOBS_SHOWN = 12;
 
 /** The parts of a problem document that the page shows. */
 export interface Trouble {
@@ -90,6 +92,13 @@ export const cancelJob = (id: string): Promise<Job> =>
 /** Ends charging now and unplugs. */
 export const finishJob = (id: string): Promise<Job> =>
   call(`/jobs/${encodeURIComponent(id)}/finish`, { method: "POST" });
+
+/** Jobs, newest first. */
+export const listJobs = (): Promise<JobPage> => call(`/jobs?limit=${String(JOBS_SHOWN)}`);
+
+/** Makes a recorded job ready to be watched; the first time takes some seconds. */
+export const preparePlayback = (id: string): Promise<Playback> =>
+  call(`/jobs/${encodeURIComponent(id)}/playback`, { patienceMs: PLAYBACK_PATIENCE_MS });
 
 export const listVehicles = (): Promise<VehicleList> => call("/vehicles");
 

@@ -168,6 +168,69 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/jobs/{job_id}/playback": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Get Playback
+         * @description Make the recording ready to be watched in 3D, and say what happens when.
+         *
+         *     Then open ``/twin/?playbackPath=/api/v1/jobs/{job_id}/playback.viser``. Making it takes some
+         *     seconds the first time.
+         */
+        readonly get: operations["getJobPlayback"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/jobs/{job_id}/playback.viser": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Get Playback File
+         * @description The playback as the 3D picture reads it.
+         */
+        readonly get: operations["getJobPlaybackFile"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/jobs/{job_id}/recording": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Get Recording
+         * @description What was recorded of the job, as an MCAP file. Foxglove opens it.
+         */
+        readonly get: operations["getJobRecording"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot": {
         readonly parameters: {
             readonly query?: never;
@@ -483,6 +546,66 @@ export interface components {
             readonly type: "delta";
         };
         /**
+         * DivergenceReport
+         * @description One quantity that differs from the model by more than both are uncertain.
+         */
+        readonly DivergenceReport: {
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Depth Mm
+             * @description Plug in the socket; null while it is not known
+             */
+            readonly depth_mm: number | null;
+            /** Expected */
+            readonly expected: number;
+            /** @description Measured at that moment */
+            readonly joints: components["schemas"]["Joints"];
+            /** Measured */
+            readonly measured: number;
+            /**
+             * Message
+             * @description This occurrence, in a sentence
+             */
+            readonly message: string;
+            /**
+             * Phase
+             * @description Of the job; empty without one
+             */
+            readonly phase: string;
+            readonly quantity: components["schemas"]["Quantity"];
+            /**
+             * Sigma
+             * @description Standard deviation of the difference if all is well
+             */
+            readonly sigma: number;
+            /**
+             * Sigmas
+             * @description Size of the difference in standard deviations
+             */
+            readonly sigmas: number;
+            /**
+             * Tip Off Mm
+             * @description How far the plug's tip is from where the model has it; null where that says nothing
+             */
+            readonly tip_off_mm: number | null;
+            /**
+             * Title
+             * @description Short, the same for every occurrence of the quantity
+             */
+            readonly title: string;
+            /**
+             * Unit
+             * @description Of expected, measured and sigma
+             * @enum {string}
+             */
+            readonly unit: "mm" | "N" | "s";
+        };
+        /**
          * EmergencyStopMessage
          * @description Emergency stop (category 1, latched). Needs no control, is never queued.
          */
@@ -544,6 +667,8 @@ export interface components {
              * @example 2026-03-01T18:04:05.120Z
              */
             readonly phase_started_at: string;
+            /** @description Null while the job runs, and where nothing is kept */
+            readonly recording?: components["schemas"]["RecordingInfo"] | null;
             readonly result: components["schemas"]["JobResult"];
             readonly state: components["schemas"]["JobState"];
             /** Target Energy Wh */
@@ -795,6 +920,12 @@ export interface components {
             readonly robot: components["schemas"]["Robot"];
             readonly service: components["schemas"]["Service"];
             readonly station: components["schemas"]["Station"];
+            /**
+             * @default {
+             *       "divergences": []
+             *     }
+             */
+            readonly twin?: components["schemas"]["TwinReport"];
         };
         /**
          * LiveChanges
@@ -809,6 +940,8 @@ export interface components {
             readonly service?: components["schemas"]["Service"] | null;
             /** @default null */
             readonly station?: components["schemas"]["Station"] | null;
+            /** @default null */
+            readonly twin?: components["schemas"]["TwinReport"] | null;
         };
         /**
          * MeasuredMotion
@@ -823,6 +956,40 @@ export interface components {
             readonly joints: components["schemas"]["Joints"];
             /** @description Null while the robot is not homed */
             readonly tip: components["schemas"]["Tip"] | null;
+        };
+        /**
+         * Playback
+         * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
+         */
+        readonly Playback: {
+            /**
+             * Duration S
+             * @description Waits without motion are cut down
+             */
+            readonly duration_s: number;
+            /** Marks */
+            readonly marks: readonly components["schemas"]["PlaybackMark"][];
+        };
+        /**
+         * PlaybackMark
+         * @description Something that happens in a playback.
+         */
+        readonly PlaybackMark: {
+            /**
+             * At S
+             * @description Seconds since the playback began
+             */
+            readonly at_s: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "phase" | "divergence";
+            /**
+             * Text
+             * @description Name of the phase, or what has parted
+             */
+            readonly text: string;
         };
         /**
          * PlugConfirmation
@@ -884,6 +1051,20 @@ export interface components {
              * @example urn:plugpilot:problem:control_busy
              */
             readonly type: string;
+        };
+        /**
+         * Quantity
+         * @description What is compared.
+         * @enum {string}
+         */
+        readonly Quantity: "rho1" | "rho2" | "rho3" | "set_point" | "force" | "socket" | "phase_time";
+        /**
+         * RecordingInfo
+         * @description What was recorded of a job: GET /api/v1/jobs/{id}/recording.
+         */
+        readonly RecordingInfo: {
+            /** Size Bytes */
+            readonly size_bytes: number;
         };
         /**
          * ReplyMessage
@@ -1153,6 +1334,17 @@ export interface components {
             readonly y_mm: number;
             /** Z Mm */
             readonly z_mm: number;
+        };
+        /**
+         * TwinReport
+         * @description What the model beside the robot finds.
+         */
+        readonly TwinReport: {
+            /**
+             * Divergences
+             * @description Empty while robot and model agree
+             */
+            readonly divergences?: readonly components["schemas"]["DivergenceReport"][];
         };
         /**
          * Vehicle
@@ -1627,6 +1819,188 @@ export interface operations {
                 content: {
                     readonly "application/json": components["schemas"]["Job"];
                 };
+            };
+            /** @description Not Found */
+            readonly 404: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            readonly 409: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly getJobPlayback: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the job's Location */
+                readonly job_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/json": components["schemas"]["Playback"];
+                };
+            };
+            /** @description Not Found */
+            readonly 404: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            readonly 409: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Internal Server Error */
+            readonly 500: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly getJobPlaybackFile: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the job's Location */
+                readonly job_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The file; parts of it may be asked for (Range) */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/octet-stream": string;
+                };
+            };
+            /** @description A part of the file */
+            readonly 206: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not Found */
+            readonly 404: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            readonly 409: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Internal Server Error */
+            readonly 500: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly getJobRecording: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the job's Location */
+                readonly job_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The file; parts of it may be asked for (Range) */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/octet-stream": string;
+                };
+            };
+            /** @description A part of the file */
+            readonly 206: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description Not Found */
             readonly 404: {

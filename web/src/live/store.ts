@@ -17,6 +17,7 @@ export function merge(live: Live, changes: DeltaMessage["changes"]): Live {
     job: changes.job ?? live.job,
     station: changes.station ?? live.station,
     service: changes.service ?? live.service,
+    twin: changes.twin ?? live.twin ?? {},
   };
 }
 

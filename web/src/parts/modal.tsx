@@ -3,12 +3,14 @@ import { useEffect, useId, useRef } from "preact/hooks";
 
 interface ModalProps {
   readonly title: string;
+  /** As wide as the screen allows. */
+  readonly wide?: boolean;
   readonly onClose: () => void;
   readonly children: ComponentChildren;
 }
 
 /** A native dialog over the page; Escape and a press beside it close it. */
-export function Modal({ title, onClose, children }: ModalProps) {
+export function Modal({ title, wide = false, onClose, children }: ModalProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   const heading = useId();
   useEffect(() => {
@@ -17,7 +19,7 @@ export function Modal({ title, onClose, children }: ModalProps) {
   return (
     <dialog
       ref={dialog}
-      class="modal"
+      class={wide ? "modal wide" : "modal"}
       aria-labelledby={heading}
       onClose={onClose}
       onClick={(event) => {

@@ -1,0 +1,1 @@
+"""One file for each job: what the robot did, measured and saw, to be watched again."""

@@ -1,0 +1,128 @@
+"""A recorded job in a real browser: the 3D client plays it, the page around it has the player."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import socket
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import pytest
+import uvicorn
+from fastapi import FastAPI
+from fastapi.responses import FileResponse, HTMLResponse
+from playwright.async_api import Browser, Page
+
+from server.api.twin import twin_router
+from tests.support.eventually import eventually
+from twin.camera_mount import CameraMount
+from twin.geometry import RobotGeometry
+from twin.joints import JointPosition
+from twin.kinematics import gamma
+from twin.scene import TwinHost, TwinState
+from twin.scene.playback import PlaybackFrame, build_playback
+
+pytestmark = pytest.mark.browser
+
+BEGIN = JointPosition(200.0, 200.0, 60.0)
+END = JointPosition(260.0, 180.0, 90.0)
+LENGTH_S = 600.0
+"""So long that nothing happens by itself while a busy machine looks."""
+
+AROUND = """<!doctype html><title>around</title><body style="margin:0">
+<iframe src="/twin/?playbackPath=%2Fa.viser&fixedDpr=0.25"
+  style="border:0;width:160px;height:120px"></iframe>
+<script>
+window.said = [];
+addEventListener("message", (e) => { if (e.data.playback) said.push(e.data.playback); });
+window.tell = (player) => frames[0].postMessage({ player }, location.origin);
+</script>"""
+
+
+def states() -> list[PlaybackFrame]:
+    """At the beginning, after a hundred seconds at the end and with an alarm, and so on."""
+    return [
+        PlaybackFrame(0.0, TwinState(measured=BEGIN)),
+        PlaybackFrame(100.0, TwinState(measured=END, parted=("rho1", "force"))),
+        PlaybackFrame(LENGTH_S, TwinState(measured=END)),
+    ]
+
+
+@contextlib.asynccontextmanager
+async def serve(host: TwinHost, file: Path) -> AsyncIterator[str]:
+    """The picture's routes, a playback and a page around them."""
+    app = FastAPI()
+    app.include_router(twin_router(host))
+    app.get("/a.viser")(lambda: FileResponse(file))
+    app.get("/around")(lambda: HTMLResponse(AROUND))
+    listener = socket.create_server(("127.0.0.1", 0))
+    config = uvicorn.Config(app, log_config=None, ws="websockets-sansio")
+    server = uvicorn.Server(config)
+    running = asyncio.create_task(server.serve(sockets=[listener]))
+    try:
+        await eventually(lambda: server.started)
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
+    finally:
+        server.should_exit = True
+        await asyncio.wait_for(running, 10)
+        listener.close()
+
+
+async def until(page: Page, condition: str) -> None:
+    """Wait until a condition holds in the frame or around it."""
+    await page.wait_for_function(condition, timeout=60_000, polling=100)
+
+
+def platform_is_at(joints: JointPosition) -> str:
+    x_mm, y_mm = gamma.platform(RobotGeometry(), joints)
+    return (
+        "(() => { const p = frames[0].__viserMutable?.nodePoseData?.['/robot/platform']?.position;"
+        f" return p && Math.hypot(p[0] - {x_mm / 1000}, p[1] - {y_mm / 1000}) < 1e-5; }})()"
+    )
+
+
+RING_IS = "frames[0].__viserSceneTree.getState()['/robot/left_carriage/parted']?.visibility === {}"
+
+
+async def test_a_playback_plays_jumps_pauses_and_shows_what_has_parted(
+    chromium: Browser, host: TwinHost, tmp_path: Path
+) -> None:
+    file = tmp_path / "a.viser"
+    file.write_bytes(
+        await asyncio.to_thread(
+            build_playback,
+            RobotGeometry(),
+            CameraMount(),
+            hfov_rad=1.0,
+            aspect=4 / 3,
+            frames=states(),
+        )
+    )
+    async with serve(host, file) as address:
+        page = await chromium.new_page(viewport={"width": 200, "height": 160})
+        faults: list[str] = []
+        sockets: list[str] = []
+        page.on("pageerror", lambda e: faults.append(str(e)))
+        page.on("websocket", lambda ws: sockets.append(ws.url))
+        await page.goto(f"{address}/around")
+
+        await until(page, "said.at(-1)?.playing === true && said.at(-1).at > 0")
+        await until(page, platform_is_at(BEGIN))
+        frame = page.frames[1]
+        assert await frame.locator("input.mantine-NumberInput-input:visible").count() == 0
+
+        await page.evaluate("tell({ at: 150, playing: true })")
+        await until(page, "said.at(-1).playing && said.at(-1).at > 150")
+        await until(page, platform_is_at(END))
+        await until(page, RING_IS.format("true"))
+
+        await page.evaluate("tell({ playing: false })")
+        await until(page, "said.at(-1).playing === false")
+
+        await page.evaluate("tell({ at: 20 })")
+        await until(page, "said.at(-1).at === 20 && !said.at(-1).playing")
+        await until(page, platform_is_at(BEGIN))
+        await until(page, RING_IS.format("false"))
+        assert faults == []
+        assert sockets == []
