@@ -72,6 +72,15 @@ def why_not_moving(mode: RobotMode, state: RobotState | None) -> ControlError | 
             return None
 
 
+def why_fault_ends_motion(state: RobotState) -> ControlError | None:
+    """The error that a fault in a sample means for the motion under way; None without a fault."""
+    if state.fault is None:
+        return None
+    if state.fault.code is FaultCode.EMERGENCY_STOP:
+        return EmergencyStoppedError(state.fault.detail)
+    return why_not_moving(RobotMode.FAULT, state)
+
+
 def why_not_preparing(mode: RobotMode, state: RobotState | None) -> ControlError | None:
     """The error that stands in the way of switching the drives on or homing, or None."""
     if mode in {RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.HOMING}:

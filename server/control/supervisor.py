@@ -18,6 +18,7 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
+from server.control import modes
 from server.control.board import Board, OnSegments
 from server.control.errors import (
     EmergencyStoppedError,
@@ -31,7 +32,6 @@ from server.control.lease import Lease, LeaseDesk
 from server.control.link import RobotLink
 from server.control.listeners import Listeners
 from server.control.model import Holder, HolderKind, RobotMode
-from server.control.modes import derive_mode, why_not_moving, why_not_preparing
 from server.control.motion import Motion, Watch
 from server.control.path_check import check_path
 from server.control.plug_guard import HELD, PlugGuard, PlugStore
@@ -84,7 +84,7 @@ class Supervisor:
     @property
     def mode(self) -> RobotMode:
         """What the robot is doing."""
-        return derive_mode(
+        return modes.derive_mode(
             self.telemetry.latest,
             stopped=self._latches.stopped,
             emergency=self._latches.emergency,
@@ -121,7 +121,7 @@ class Supervisor:
         self._listeners.add(listener)
 
     def listen_to_segments(self, listener: OnSegments) -> None:
-        """Call ``listener`` with all segments that the board has accepted; there is only one."""
+        """Call the one ``listener`` with all segments that the board has accepted."""
         self._board.on_segments = listener
 
     # Life
@@ -277,15 +277,13 @@ class Supervisor:
             ControlError: the robot is not ready, the plug forbids it, or it leaves the limits.
         """
         lease.require()
-        problem = why_not_moving(self.mode, self.telemetry.latest)
+        problem = modes.why_not_moving(self.mode, self.telemetry.latest)
         if problem is not None:
             raise problem
-        self._check(plan)
+        check_path(self.geometry, self.plug, plan)
         if self._link.identity is None:
             raise RobotOfflineError("The motion board has not identified itself yet.")
-        self._motion = Motion(
-            self._board, self._link.identity, plan, watch, changeable=changeable
-        )
+        self._motion = Motion(self._board, self._link.identity, plan, watch, changeable=changeable)
         return self._motion
 
     async def run(self, motion: Motion) -> RobotState:
@@ -295,8 +293,7 @@ class Supervisor:
             return await motion.run()
         finally:
             self.plug.motion_ended()
-            if self._motion is motion:
-                self._motion = None
+            self._motion = None if self._motion is motion else self._motion
 
     async def follow(
         self, lease: Lease, plan: MotionPlan, watch: Watch | None = None
@@ -320,18 +317,15 @@ class Supervisor:
 
         def replan(start: JointState) -> MotionPlan:
             plan = plan_joint_move(self.limits, start, target)
-            self._check(plan)
+            check_path(self.geometry, self.plug, plan)
             return plan
 
         motion.retarget(replan)
 
     # Inside
 
-    def _check(self, plan: MotionPlan) -> None:
-        check_path(self.geometry, self.plug, plan)
-
     def _refuse_when_stopped(self) -> None:
-        problem = why_not_preparing(self.mode, self.telemetry.latest)
+        problem = modes.why_not_preparing(self.mode, self.telemetry.latest)
         if problem is not None:
             raise problem
 
@@ -345,15 +339,10 @@ class Supervisor:
         self._changed()
 
     def _notice_fault(self, state: RobotState) -> None:
-        if state.fault is None:
-            return
-        if state.fault.code is FaultCode.EMERGENCY_STOP:
-            self._latches.emergency = True
-            self._interrupt(EmergencyStoppedError(state.fault.detail))
-        else:
-            problem = why_not_moving(RobotMode.FAULT, state)
-            if problem is not None:
-                self._interrupt(problem)
+        problem = modes.why_fault_ends_motion(state)
+        if problem is not None:
+            self._latches.emergency |= isinstance(problem, EmergencyStoppedError)
+            self._interrupt(problem)
 
     def _changed(self) -> None:
         self._listeners.tell()

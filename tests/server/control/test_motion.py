@@ -76,7 +76,8 @@ def test_a_board_with_another_queue_is_fed_as_it_can_take(capacity: int) -> None
         await move(cell, AWAY)
         return max(lengths)
 
-    assert in_cell(scenario, parameters(queue_capacity=capacity, segment_s=0.1)) == min(capacity, 11)
+    fullest = in_cell(scenario, parameters(queue_capacity=capacity, segment_s=0.1))
+    assert fullest == min(capacity, 11)
 
 
 def test_a_busy_computer_does_not_starve_the_board() -> None:
