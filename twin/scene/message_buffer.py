@@ -17,6 +17,8 @@ import viser
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
 
+_LOOK_AGAIN_S = 0.1
+
 
 class ReplayBuffer(AsyncMessageBuffer):
     """The library's buffer with another way to walk through it."""
@@ -59,8 +61,7 @@ class ReplayBuffer(AsyncMessageBuffer):
                 if window:
                     yield window
                 else:
-                    await self.message_event.wait()
-                    self.message_event.clear()
+                    await self._something_new()
                 if not window or sent == self.message_counter - 1:
                     done, _ = await asyncio.wait([flush], timeout=self.window_duration_sec)
                     if flush in done and not self.done:
@@ -71,6 +72,17 @@ class ReplayBuffer(AsyncMessageBuffer):
             flush.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await flush
+
+    async def _something_new(self) -> None:
+        """Waits for a message, or a moment.
+
+        The library sets this event from other threads too, which asyncio's events do not allow:
+        set between the look at it and the wait for it, it never wakes anybody again.
+        """
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(_LOOK_AGAIN_S):
+                await self.message_event.wait()
+        self.message_event.clear()
 
     def _still_kept(self, numbers: Sequence[int], client_id: int) -> list[Message]:
         """The messages of these numbers that nothing has replaced and this browser may see."""

@@ -104,3 +104,17 @@ async def test_a_browser_that_left_holds_nothing(server: viser.ViserServer) -> N
         await client.until_replayed()
         assert len(buffer_of(server).generator_cursors) == 1
     await eventually(lambda: not buffer_of(server).generator_cursors)
+
+
+async def test_a_wake_up_that_got_lost_holds_nothing_up(server: viser.ViserServer) -> None:
+    node = server.scene.add_frame("/node")
+    buffer = buffer_of(server)
+    async with TwinClient.connected(address_of(server)) as client:
+        await client.until_replayed()
+        # As when another thread sets it between the look at it and the wait for it: it is set,
+        # so that setting it again does nothing, but who waits was not told.
+        await eventually(lambda: bool(buffer.message_event._waiters))
+        vars(buffer.message_event)["_value"] = True
+        node.position = (7.0, 0.0, 0.0)
+        async with asyncio.timeout(5):
+            await client.until_position("/node", 7.0)
