@@ -1,13 +1,14 @@
-"""The black/white edges of a QR code in label coordinates."""
+"""The black/white edges of a code in label coordinates."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-MOST_EDGES = 1200
+MOST_EDGES = 800
 """Large codes are thinned to this many edges: enough for the accuracy, and the time stays flat."""
 
 
@@ -21,12 +22,24 @@ class CodeEdges:
     Attributes:
         points_mm: Label coordinates x, y (origin the code's centre), shape (n, 2).
         normals: Unit vectors from black to white in the label's plane, shape (n, 2).
+        tangents: Unit vectors along the edge, a quarter turn from the normals, shape (n, 2).
         module_mm: Side of one module.
     """
 
     points_mm: NDArray[np.float64]
     normals: NDArray[np.float64]
+    tangents: NDArray[np.float64]
     module_mm: float
+
+    def thinned(self, most: int) -> CodeEdges:
+        """At most so many of the edges, spread evenly over both directions and the whole code."""
+        count = len(self.points_mm)
+        if count <= most:
+            return self
+        kept = np.linspace(0, count - 1, most).round().astype(np.intp)
+        return CodeEdges(
+            self.points_mm[kept], self.normals[kept], self.tangents[kept], self.module_mm
+        )
 
 
 def code_edges(modules: NDArray[np.bool_], label_size_mm: float) -> CodeEdges:
@@ -37,6 +50,14 @@ def code_edges(modules: NDArray[np.bool_], label_size_mm: float) -> CodeEdges:
         label_size_mm: Outer side of the code without its quiet zone.
     """
     count = modules.shape[0]
+    return _code_edges(np.packbits(modules).tobytes(), count, label_size_mm)
+
+
+@lru_cache(maxsize=8)
+def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
+    """The same for a matrix that can be hashed: a camera sees one label again and again."""
+    bits = np.unpackbits(np.frombuffer(packed, dtype=np.uint8), count=count * count)
+    modules = bits.astype(np.bool_).reshape(count, count)
     module_mm = label_size_mm / count
     across = _sides(modules)
     down = _sides(modules.T)
@@ -47,10 +68,8 @@ def code_edges(modules: NDArray[np.bool_], label_size_mm: float) -> CodeEdges:
     normals[: len(across), 0] = signs[: len(across)]
     normals[len(across) :, 1] = signs[len(across) :]
     points = cells * module_mm - label_size_mm / 2
-    if len(points) > MOST_EDGES:
-        kept = np.linspace(0, len(points) - 1, MOST_EDGES).round().astype(np.intp)
-        points, normals = points[kept], normals[kept]
-    return CodeEdges(points, normals, module_mm)
+    tangents = normals[:, ::-1] * (-1.0, 1.0)
+    return CodeEdges(points, normals, tangents, module_mm).thinned(MOST_EDGES)
 
 
 def _sides(modules: NDArray[np.bool_]) -> NDArray[np.float64]:

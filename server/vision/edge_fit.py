@@ -10,27 +10,27 @@ from numpy.typing import NDArray
 from drivers.camera import CameraModel
 from server.vision.code_edges import CodeEdges
 from server.vision.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
+from server.vision.edge_spread import spread_basis
+from server.vision.fit_covariance import fit_covariance
+from server.vision.light_field import light_field
 from server.vision.projection import Array, perturbed
+from server.vision.robust_step import RobustStep, robust_step
 
-MOST_ITERATIONS = 12
-PATIENCE = 8
-"""After so many iterations a fit that still swings a little is good enough: perfectly sharp edges
+COARSE_EDGES = 200
+"""So many edges lead from the start to the neighbourhood of the fit; then all of them count."""
+MOST_COARSE_STEPS = 5
+MOST_FINE_STEPS = 8
+PATIENCE = 5
+"""After so many fine steps a fit that still swings a little is good enough: perfectly sharp edges
 snap from pixel to pixel."""
-DEPTH_FLOOR = 2.5e-5
-"""Relative error of the distance that noise does not explain: the fall-off of the light across
-the picture pulls all edges a little towards its middle (measured on rendered pictures)."""
 
-TILT_FLOOR_RAD = 5e-5
-"""The same for the tilt about the picture's axes [rad]."""
-
-_TUKEY = 4.685  # 95% efficient for normal residuals (Beaton and Tukey 1974)
-_LEAST_CONTRAST = 0.2  # of the median contrast; below it an edge says nothing
-_SMALLEST_SCALE_PX = 0.01
-_CONVERGED_PX = 2e-3
-_SETTLED_PX = 0.05
-_NARROW_BELOW_PX = 0.2
-_NARROW_WIDTHS = 3.0
+_NEAR_PX = 1.0
+_CONVERGED_PX = 0.02
+_SETTLED_PX = 0.1
+_PROFILE_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
+
+Image = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +43,7 @@ class EdgeFit:
         rms_px: Root mean square distance of the inlying edges from the fit [px].
         inlier_share: Share of the edges that agree with the fit, 0 to 1.
         edge_count: Number of edges looked at.
-        spread_px: Outward shift of all black areas by ink, blur and gamma [px].
+        spread_px: Outward shift of black areas in the code's middle by ink, blur and gamma [px].
     """
 
     T_camera_label: Array
@@ -54,8 +54,17 @@ class EdgeFit:
     spread_px: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Near:
+    """Where the coarse steps lead: close enough for all edges and short profiles."""
+
+    T_camera_label: Array
+    spread_px: float
+    measured: EdgeOffsets
+
+
 def fit_edges(
-    image: NDArray[np.uint8],
+    image: Image,
     camera: CameraModel,
     edges: CodeEdges,
     T_start: Array,
@@ -64,8 +73,8 @@ def fit_edges(
 ) -> EdgeFit | None:
     """Gauss-Newton over six pose numbers and the edge spread, with Tukey's weights.
 
-    The spread is the seventh unknown because ink, blur and gamma move all black/white edges
-    apart; without it a dark picture looks like a nearer label.
+    The spread is unknown because ink, blur and gamma move all black/white edges apart; without
+    it a dark picture looks like a nearer label.
 
     Args:
         image: Grey values, shape (height, width).
@@ -77,94 +86,63 @@ def fit_edges(
     Returns:
         The fit, or None where too few edges are visible or the fit does not settle.
     """
-    pose, reach_px = T_start, MOST_REACH_PX
-    measured = edge_offsets(image, camera, edges, pose, inverted=inverted)
-    # Without a first guess of the spread all edges of a well predicted pose would be outliers.
-    spread = float(np.median(measured.offset_px))
-    for iteration in range(MOST_ITERATIONS):
-        system = _weigh(measured, spread)
-        if system is None:
-            return None
-        step = system.step()
-        pose = perturbed(pose, step[:6])
-        spread += float(step[6])
-        moved_px = float(np.max(np.abs(system.design @ step)))
-        if not moved_px < MOST_REACH_PX or pose[2, 3] <= 0:
-            return None
-        if moved_px < (_CONVERGED_PX if iteration < PATIENCE else _SETTLED_PX):
-            return _result(system, pose, spread, len(edges.points_mm))
-        if moved_px < _NARROW_BELOW_PX and reach_px == MOST_REACH_PX:
-            # Longer profiles than the blur only collect noise and slopes of the light.
-            reach_px = max(_NARROW_WIDTHS * measured.width_px, _LEAST_REACH_PX)
+    few = edges.thinned(COARSE_EDGES)
+    near = _approach(image, camera, few, T_start, inverted=inverted)
+    if near is None:
+        return None
+    pose, basis = near.T_camera_label, spread_basis(edges)
+    spread = np.zeros(basis.shape[1])
+    spread[0] = near.spread_px
+    # Longer profiles than the blur only collect noise.
+    reach_px = max(_PROFILE_WIDTHS * near.measured.width_px, _LEAST_REACH_PX)
+    light = light_field(few, near.measured)
+    levels = None if light is None else light.levels(edges)
+    for number in range(MOST_FINE_STEPS):
+        spread_px = basis @ spread
         measured = edge_offsets(
-            image, camera, edges, pose, inverted=inverted, spread_px=spread, reach_px=reach_px
+            image,
+            camera,
+            edges,
+            pose,
+            inverted=inverted,
+            spread_px=spread_px,
+            reach_px=reach_px,
+            levels=levels,
         )
+        solved = robust_step(measured, spread_px, basis)
+        if solved is None or not solved.moved_px < MOST_REACH_PX:
+            return None
+        pose, spread = perturbed(pose, solved.step[:6]), spread + solved.step[6:]
+        if solved.moved_px < (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
+            return _result(solved, edges, pose, float(spread[0]))
     return None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _System:
-    """The weighted linear system of one iteration.
-
-    Attributes:
-        design: Derivative of the residuals by (omega, tau, spread), shape (n, 7).
-        residuals: Measured minus predicted distance along the normal, shape (n,) [px].
-        weights: Tukey's weights, shape (n,).
-        efficiency: Mean derivative of Tukey's score, needed for the covariance.
-    """
-
-    design: Array
-    residuals: Array
-    weights: Array
-    efficiency: float
-
-    def step(self) -> Array:
-        """Weighted least squares solution, shape (7,)."""
-        normal = (self.design.T * self.weights) @ self.design
-        right = self.design.T @ (self.weights * self.residuals)
-        return np.asarray(np.linalg.lstsq(normal, right)[0], dtype=np.float64)
-
-    @property
-    def rms_px(self) -> float:
-        return float(np.sqrt(np.sum(self.weights * self.residuals**2) / np.sum(self.weights)))
-
-    def covariance(self) -> Array:
-        """Sandwich covariance of an M-estimator (Huber 1981, 7.6), pose part, shape (6, 6)."""
-        inverse = np.linalg.inv(self.design.T @ self.design * self.efficiency)
-        scores = self.weights * self.residuals
-        count = len(scores)
-        middle = (self.design.T * scores**2) @ self.design * (count / (count - 7))
-        return np.asarray((inverse @ middle @ inverse)[:6, :6])
+def _approach(
+    image: Image, camera: CameraModel, few: CodeEdges, T_start: Array, *, inverted: bool
+) -> _Near | None:
+    """Steps with few edges and long profiles, until the next would be shorter than a pixel."""
+    pose, spread_px = T_start, 0.0
+    alike = np.ones((len(few.points_mm), 1))
+    for _ in range(MOST_COARSE_STEPS):
+        measured = edge_offsets(image, camera, few, pose, inverted=inverted, spread_px=spread_px)
+        solved = robust_step(measured, spread_px * alike[:, 0], alike)
+        if solved is None or not solved.moved_px < MOST_REACH_PX:
+            return None
+        pose, spread_px = perturbed(pose, solved.step[:6]), spread_px + float(solved.step[6])
+        if pose[2, 3] <= 0:
+            return None
+        if solved.moved_px < _NEAR_PX:
+            break
+    return _Near(pose, spread_px, measured)
 
 
-def _result(system: _System, pose: Array, spread_px: float, edge_count: int) -> EdgeFit:
-    covariance = system.covariance()
-    covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2
-    covariance[5, 5] += (DEPTH_FLOOR * pose[2, 3]) ** 2
+def _result(solved: RobustStep, edges: CodeEdges, pose: Array, spread_px: float) -> EdgeFit:
     return EdgeFit(
         T_camera_label=pose,
-        covariance=covariance,
-        rms_px=system.rms_px,
-        inlier_share=float(np.sum(system.weights > 0.1)) / edge_count,
-        edge_count=edge_count,
+        covariance=fit_covariance(solved, edges.points_mm[solved.used], pose),
+        rms_px=solved.rms_px,
+        inlier_share=float(np.sum(solved.weights > 0.1)) / len(edges.points_mm),
+        edge_count=len(edges.points_mm),
         spread_px=spread_px,
     )
-
-
-def _weigh(measured: EdgeOffsets, spread: float) -> _System | None:
-    """Build the system from the edges with enough contrast; None if they are too few."""
-    rising = measured.visible & (measured.contrast > 0)
-    if np.count_nonzero(rising) < 24:
-        return None
-    enough = _LEAST_CONTRAST * float(np.median(measured.contrast[rising]))
-    used = rising & (measured.contrast > enough)
-    residuals = measured.offset_px[used] - spread
-    design = np.column_stack((measured.by_pose[used], np.ones(len(residuals))))
-    scale = 1.4826 * float(np.median(np.abs(residuals)))
-    relative = residuals / (_TUKEY * max(scale, _SMALLEST_SCALE_PX))
-    weights = np.where(np.abs(relative) < 1, (1 - relative**2) ** 2, 0.0)
-    if np.count_nonzero(weights) < 24:
-        return None
-    inside = relative[np.abs(relative) < 1] ** 2
-    efficiency = float(np.sum((1 - inside) * (1 - 5 * inside))) / len(residuals)
-    return _System(design, residuals, weights, max(efficiency, 0.2))

@@ -16,7 +16,16 @@ REACH_MODULES = 0.5
 """Profiles reach this far to both sides: beyond it the next edge begins to count."""
 
 MOST_REACH_PX = 12.0
-_SIDEWAYS_MODULES = (-0.25, 0.0, 0.25)
+_SIDEWAYS_MODULES = np.array((-0.25, 0.0, 0.25), dtype=np.float32)
+
+
+class ProfileLevels(NamedTuple):
+    """Black and contrast where each edge lies, and how they change towards white, shapes (n,)."""
+
+    black: Array
+    black_per_mm: Array
+    contrast: Array
+    contrast_per_mm: Array
 
 
 class EdgeOffsets(NamedTuple):
@@ -27,14 +36,26 @@ class EdgeOffsets(NamedTuple):
         by_pose: Derivative of the predicted place along the normal by (omega, tau), shape (n, 6).
         contrast: Grey step from black to white, negative where the picture contradicts, (n,).
         visible: Whole profile inside the picture, shape (n,).
-        width_px: Standard deviation of the typical edge's blur [px].
+        variance_px2: Second central moment of the gradient: the edge's blur squared, shape (n,).
+        black: Grey value at the black end of the profile, shape (n,).
+        white: The same at the white end.
     """
 
     offset_px: Array
     by_pose: Array
     contrast: Array
     visible: NDArray[np.bool_]
-    width_px: float
+    variance_px2: Array
+    black: Array
+    white: Array
+
+    @property
+    def width_px(self) -> float:
+        """Standard deviation of the typical edge's blur [px]; 0 if no edge is seen."""
+        usable = self.visible & (self.contrast > 0)
+        if not np.any(usable):
+            return 0.0
+        return float(np.sqrt(max(np.median(self.variance_px2[usable]), 0.0)))
 
 
 def edge_offsets(
@@ -44,8 +65,9 @@ def edge_offsets(
     T_camera_label: Array,
     *,
     inverted: bool = False,
-    spread_px: float = 0.0,
+    spread_px: Array | float = 0.0,
     reach_px: float = MOST_REACH_PX,
+    levels: ProfileLevels | None = None,
 ) -> EdgeOffsets:
     """Sample the grey values across every edge and take the centroid of their gradient.
 
@@ -55,69 +77,91 @@ def edge_offsets(
         edges: Edges in label coordinates.
         T_camera_label: Predicted pose, shape (4, 4) [mm].
         inverted: The code is white on black.
-        spread_px: Expected shift of all edges towards white; profiles are centred there.
+        spread_px: Expected shift of the edges towards white, one or one each; profiles are
+            centred there.
         reach_px: Half length of the profiles, where half a module is not shorter.
+        levels: Local black and contrast to measure against; None takes the grey values.
     """
     seen = project(camera, T_camera_label, edges.points_mm)
     in_plane = seen.by_point @ T_camera_label[:3, :2]  # pixel by label x and y, (n, 2, 2)
     to_white = np.einsum("nij,nj->ni", in_plane, edges.normals)
-    along = np.einsum("nij,nj->ni", in_plane, edges.normals[:, ::-1] * (-1.0, 1.0))
+    along = np.einsum("nij,nj->ni", in_plane, edges.tangents)
     normal = along[:, ::-1] * (1.0, -1.0)
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    across = np.einsum("ni,ni->n", normal, to_white)  # label mm along the normal -> px
+    normal /= np.sqrt(normal[:, :1] ** 2 + normal[:, 1:] ** 2)
+    across = normal[:, 0] * to_white[:, 0] + normal[:, 1] * to_white[:, 1]  # label mm -> px
     normal *= np.sign(across)[:, None]
+    across = np.abs(across)
 
-    half_module = np.abs(across) * edges.module_mm * REACH_MODULES
-    reach = np.clip(half_module - abs(spread_px), 1.0, reach_px)
+    half_module = across * edges.module_mm * REACH_MODULES
+    reach = np.clip(half_module - np.abs(spread_px), 1.0, reach_px)
     longest = float(np.max(reach, initial=2.0))
     # Steps of a pixel, but of half a pixel across the short profiles of sharp edges.
     half_steps = int(np.ceil(max(longest, min(2 * longest, 6.0))))
-    steps = np.arange(-half_steps, half_steps + 1) / half_steps
-    sideways = np.array(_SIDEWAYS_MODULES) * edges.module_mm
-    middle = seen.pixels + normal * spread_px
-    taps = middle[:, :, None] + along[:, :, None] * sideways  # (n, 2, 3)
-    grid = taps.astype(np.float32)[..., None] + (
-        (normal * reach[:, None]).astype(np.float32)[:, :, None, None] * steps.astype(np.float32)
-    )
-    last = np.array([image.shape[1], image.shape[0]], dtype=np.float32)[:, None] - 1
-    ends = grid[..., (0, -1)].reshape(len(grid), 2, -1)
-    visible = np.all((ends >= 0) & (ends <= last), axis=(1, 2))
-    grey = _sample(image, grid[:, 0], grid[:, 1]).mean(axis=1)
-
-    gradient = np.diff(grey, axis=1)
+    steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
+    middle = seen.pixels + normal * np.reshape(spread_px, (-1, 1))
+    forward = normal * reach[:, None]
+    beside = along * edges.module_mm
+    extent = np.abs(forward) + 0.25 * np.abs(beside)
+    last = (image.shape[1] - 1, image.shape[0] - 1)
+    visible = np.all((middle >= extent) & (middle + extent <= last), axis=1)
+    grey = _profiles(image, middle, beside, forward, steps)
     if inverted:
-        gradient = -gradient
+        grey = 255 - grey
+    black, white = grey[:, 0].astype(np.float64), grey[:, -1].astype(np.float64)
+    if levels is not None:
+        grey = _levelled(grey, levels, spread_px / across, reach / across, steps)
+
+    gradient = grey[:, 1:] - grey[:, :-1]
     middles = (steps[:-1] + steps[1:]) / 2
-    contrast = gradient.sum(axis=1)
+    contrast = gradient.sum(axis=1).astype(np.float64)
     safe = np.where(contrast > 0, contrast, 1.0)
-    centroid = gradient @ middles / safe * reach
-    usable = visible & (contrast > 0)
-    offset = np.where(usable, np.clip(centroid, -reach, reach) + spread_px, 0.0)
-    variance = gradient @ middles**2 / safe * reach**2 - centroid**2
-    width = float(np.sqrt(max(np.median(variance[usable]), 0.0))) if np.any(usable) else 0.0
-    by_pose = np.einsum("ni,nij->nj", normal, seen.by_pose)
-    return EdgeOffsets(offset, by_pose, contrast, visible, width)
+    moments = gradient @ np.column_stack((middles, middles**2))
+    centroid = moments[:, 0] / safe * reach
+    offset = np.clip(centroid, -reach, reach) + spread_px
+    offset[~visible | (contrast <= 0)] = 0.0
+    variance = moments[:, 1] / safe * reach**2 - centroid**2
+    by_pose = seen.by_pose_along(normal)
+    return EdgeOffsets(offset, by_pose, contrast, visible, variance, black, white)
 
 
-def _sample(
-    image: NDArray[np.uint8], x: NDArray[np.float32], y: NDArray[np.float32]
+def _levelled(
+    grey: NDArray[np.float32],
+    levels: ProfileLevels,
+    spread_mm: Array,
+    reach_mm: Array,
+    steps: NDArray[np.float32],
 ) -> NDArray[np.float32]:
-    """Grey values at fractional pixels, bilinear, shape of x."""
-    shape = x.shape
-    # remap works on float32 to keep the fractions that uint8 would round away; only the region
-    # that is looked at is converted. It wants plane maps.
-    height, width = image.shape
-    left, right = _span(x, width)
-    top, bottom = _span(y, height)
-    region = image[top:bottom, left:right].astype(np.float32)
-    map_x = (x - np.float32(left)).reshape(shape[0], -1)
-    map_y = (y - np.float32(top)).reshape(shape[0], -1)
-    values = cv2.remap(region, map_x, map_y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    return np.asarray(values, dtype=np.float32).reshape(shape)
+    """Profiles relative to the local black (0) and white (1), shape (n, steps)."""
+    black = levels.black + levels.black_per_mm * spread_mm
+    contrast = levels.contrast + levels.contrast_per_mm * spread_mm
+    lifted = grey - black.astype(np.float32)[:, None]
+    lifted -= (levels.black_per_mm * reach_mm).astype(np.float32)[:, None] * steps
+    slope = (levels.contrast_per_mm * reach_mm / contrast).astype(np.float32)[:, None]
+    lifted /= contrast.astype(np.float32)[:, None] * (1 + slope * steps)
+    return lifted
 
 
-def _span(values: NDArray[np.float32], size: int) -> tuple[int, int]:
-    """First and one past the last pixel that interpolation touches, inside the picture."""
-    low = int(np.clip(np.floor(values.min()), 0, size - 1))
-    high = int(np.clip(np.ceil(values.max()) + 1, low + 1, size))
-    return low, high
+def _profiles(
+    image: NDArray[np.uint8],
+    middle: Array,
+    beside: Array,
+    forward: Array,
+    steps: NDArray[np.float32],
+) -> NDArray[np.float32]:
+    """Grey values along each edge's normal, the mean of a few lines side by side, (n, steps).
+
+    Each value is rounded to whole grey values, which is small beside the noise of the sensor.
+    """
+    count = len(middle)
+    maps = []
+    for axis in (0, 1):
+        lines = middle[:, axis, None].astype(np.float32)
+        lines = lines + beside[:, axis, None].astype(np.float32) * _SIDEWAYS_MODULES
+        across = forward[:, axis, None].astype(np.float32) * steps
+        maps.append((lines[:, :, None] + across[:, None, :]).reshape(count, -1))
+    grey = cv2.remap(image, maps[0], maps[1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    lines = np.asarray(grey).reshape(count, len(_SIDEWAYS_MODULES), len(steps)).astype(np.float32)
+    total = lines[:, 0] + lines[:, 1]
+    total += lines[:, 2]
+    total /= 3
+    return total
