@@ -8,7 +8,7 @@ import pytest
 import segno
 from numpy.typing import NDArray
 
-from server.vision.decode import find_codes
+from server.vision.markers.qr_reading import find_codes
 from tests.server.vision.pictures import PAYLOAD, SIZE_MM, flat_code, picture, pose, view
 from twin.qr_label import label_modules
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -10,6 +10,12 @@ from numpy.typing import NDArray
 
 MOST_EDGES = 800
 """Large codes are thinned to this many edges: enough for the accuracy, and the time stays flat."""
+
+ENOUGH_EDGES = 300
+MOST_PIECES = 4
+"""Codes of few, large modules have their sides cut into so many pieces, each an edge of its own."""
+
+_USED_OF_SIDE = 0.75  # near the corners of a module other edges count
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,12 +30,14 @@ class CodeEdges:
         normals: Unit vectors from black to white in the label's plane, shape (n, 2).
         tangents: Unit vectors along the edge, a quarter turn from the normals, shape (n, 2).
         module_mm: Side of one module.
+        length_mm: Length of each edge.
     """
 
     points_mm: NDArray[np.float64]
     normals: NDArray[np.float64]
     tangents: NDArray[np.float64]
     module_mm: float
+    length_mm: float
 
     def thinned(self, most: int) -> CodeEdges:
         """At most so many of the edges, spread evenly over both directions and the whole code."""
@@ -37,8 +45,11 @@ class CodeEdges:
         if count <= most:
             return self
         kept = np.linspace(0, count - 1, most).round().astype(np.intp)
-        return CodeEdges(
-            self.points_mm[kept], self.normals[kept], self.tangents[kept], self.module_mm
+        return replace(
+            self,
+            points_mm=self.points_mm[kept],
+            normals=self.normals[kept],
+            tangents=self.tangents[kept],
         )
 
 
@@ -69,7 +80,12 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     normals[len(across) :, 1] = signs[len(across) :]
     points = cells * module_mm - label_size_mm / 2
     tangents = normals[:, ::-1] * (-1.0, 1.0)
-    return CodeEdges(points, normals, tangents, module_mm).thinned(MOST_EDGES)
+    pieces = int(np.clip(ENOUGH_EDGES // max(len(points), 1), 1, MOST_PIECES))
+    length_mm = _USED_OF_SIDE * module_mm / pieces
+    along = (np.arange(pieces) - (pieces - 1) / 2) * length_mm
+    points = (points[:, None, :] + tangents[:, None, :] * along[:, None]).reshape(-1, 2)
+    normals, tangents = normals.repeat(pieces, axis=0), tangents.repeat(pieces, axis=0)
+    return CodeEdges(points, normals, tangents, module_mm, length_mm).thinned(MOST_EDGES)
 
 
 def _sides(modules: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from server.vision.code_edges import CodeEdges
-from server.vision.edge_profiles import EdgeOffsets, ProfileLevels
+from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.edge_profiles import EdgeOffsets, ProfileLevels
 from server.vision.projection import Array
 
 _LEAST_EDGES = 40

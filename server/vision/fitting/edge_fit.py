@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.vision.code_edges import CodeEdges
-from server.vision.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
-from server.vision.edge_spread import spread_basis
-from server.vision.fit_covariance import fit_covariance
-from server.vision.light_field import light_field
+from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
+from server.vision.fitting.edge_spread import spread_basis
+from server.vision.fitting.fit_covariance import fit_covariance
+from server.vision.fitting.light_field import light_field
 from server.vision.projection import Array, perturbed
-from server.vision.robust_step import RobustStep, robust_step
+from server.vision.fitting.robust_step import RobustStep, robust_step
 
 COARSE_EDGES = 200
 """So many edges lead from the start to the neighbourhood of the fit; then all of them count."""

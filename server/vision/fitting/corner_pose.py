@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from drivers.camera import CameraModel
-from server.vision.decode import Code
-from server.vision.errors import MirroredCodeError, PoseRejectedError
+from server.vision.markers.code import Code
+from server.vision.errors import FitFailedError, MirroredCodeError
 from server.vision.label_pose import LabelPose, PoseSource
 from server.vision.projection import project
-from server.vision.start_pose import corners_mm, start_poses
+from server.vision.fitting.start_pose import corners_mm, start_poses
 
 CORNER_SIGMA_PX = 1.0
 """Corners are read in whole pixels; measured about 1 px off at close range."""
@@ -24,7 +24,7 @@ def corner_pose(camera: CameraModel, code: Code, label_size_mm: float) -> LabelP
         label_size_mm: Outer side of the code without its quiet zone.
 
     Raises:
-        PoseRejectedError: no label in front of the camera has these corners.
+        FitFailedError: no label in front of the camera has these corners.
         MirroredCodeError: the code is mirrored.
     """
     if code.mirrored:
@@ -32,7 +32,7 @@ def corner_pose(camera: CameraModel, code: Code, label_size_mm: float) -> LabelP
     starts = start_poses(camera, code.corners_px, label_size_mm)
     if not starts:
         detail = f"The corners of the code {code.payload!r} are not those of a square."
-        raise PoseRejectedError(detail)
+        raise FitFailedError(detail)
     best = starts[0]
     by_pose = project(camera, best.T_camera_label, corners_mm(label_size_mm)).by_pose
     design = by_pose.reshape(8, 6)

@@ -3,50 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 
 import cv2
 import numpy as np
 import zxingcpp
-from numpy.typing import NDArray
 
-from server.vision.qr_format import is_mirrored
+from server.vision.markers.code import Code, Image
+from server.vision.markers.qr_format import is_mirrored
+from server.vision.markers.window import Window
 
-Image = NDArray[np.uint8]
 _FORMATS = zxingcpp.BarcodeFormats([zxingcpp.BarcodeFormat.QRCodeModel2])
 
 
 _SMALLEST_LOOK_PX, _LARGEST_LOOK_PX = 100, 2600  # longer side of scaled pictures
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Code:
-    """One QR code found in a picture.
-
-    Attributes:
-        payload: Its text, exactly as encoded.
-        corners_px: Outer corners of the code without quiet zone in the order top left, top right,
-            bottom right, bottom left of the code itself, shape (4, 2) [px], pixel centres at
-            integers; good to about 1 px.
-        modules: Sampled modules before error correction, True is black, shape (n, n).
-        mirrored: The code is seen in a mirror.
-    """
-
-    payload: str
-    corners_px: NDArray[np.float64]
-    modules: NDArray[np.bool_]
-    mirrored: bool
-
-    @property
-    def area_px(self) -> float:
-        """Area of the quadrilateral of the corners [px^2]."""
-        return abs(float(cv2.contourArea(self.corners_px.astype(np.float32))))
-
-    def enlarged(self, scale: float, shift_px: tuple[float, float]) -> Code:
-        """The code as seen in a picture of which this one's was a scaled part."""
-        corners = (self.corners_px + 0.5) / scale - 0.5 + np.array(shift_px)
-        return Code(self.payload, corners, self.modules, self.mirrored)
 
 
 def find_codes(image: Image, *, wanted: str | None = None) -> list[Code]:
@@ -67,6 +37,12 @@ def find_codes(image: Image, *, wanted: str | None = None) -> list[Code]:
             return codes
         met.update({code.payload: code for code in codes})
     return list(met.values())
+
+
+def read_window(window: Window) -> list[Code]:
+    """Read what is in a part of a picture, in the coordinates of the whole."""
+    codes = _read(window.image, quick=True) or _read(window.image)
+    return [code.enlarged(window.scale, window.left_top_px) for code in codes]
 
 
 def _attempts(image: Image) -> Iterator[Callable[[], list[Code]]]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from server.vision.code_edges import CodeEdges
+from server.vision.fitting.code_edges import CodeEdges
 from server.vision.projection import Array
 
 EDGES_FOR_SLOPE, EDGES_FOR_BOW = 120, 300

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from server.vision.projection import Array
-from server.vision.robust_step import RobustStep
+from server.vision.fitting.robust_step import RobustStep
 
 DEPTH_FLOOR = 2.5e-5
 TILT_FLOOR_RAD = 5e-5

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.vision.code_edges import CodeEdges
+from server.vision.fitting.code_edges import CodeEdges
 from server.vision.projection import Array, project
 
 REACH_MODULES = 0.5
 """Profiles reach this far to both sides: beyond it the next edge begins to count."""
 
 MOST_REACH_PX = 12.0
-_SIDEWAYS_MODULES = np.array((-0.25, 0.0, 0.25), dtype=np.float32)
+_LINES = np.array((-1 / 3, 0.0, 1 / 3), dtype=np.float32)  # side by side, of an edge's length
 
 
 class ProfileLevels(NamedTuple):
@@ -100,8 +100,8 @@ def edge_offsets(
     steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
     middle = seen.pixels + normal * np.reshape(spread_px, (-1, 1))
     forward = normal * reach[:, None]
-    beside = along * edges.module_mm
-    extent = np.abs(forward) + 0.25 * np.abs(beside)
+    beside = along * edges.length_mm
+    extent = np.abs(forward) + np.abs(beside) / 3
     last = (image.shape[1] - 1, image.shape[0] - 1)
     visible = np.all((middle >= extent) & (middle + extent <= last), axis=1)
     grey = _profiles(image, middle, beside, forward, steps)
@@ -156,11 +156,11 @@ def _profiles(
     maps = []
     for axis in (0, 1):
         lines = middle[:, axis, None].astype(np.float32)
-        lines = lines + beside[:, axis, None].astype(np.float32) * _SIDEWAYS_MODULES
+        lines = lines + beside[:, axis, None].astype(np.float32) * _LINES
         across = forward[:, axis, None].astype(np.float32) * steps
         maps.append((lines[:, :, None] + across[:, None, :]).reshape(count, -1))
     grey = cv2.remap(image, maps[0], maps[1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    lines = np.asarray(grey).reshape(count, len(_SIDEWAYS_MODULES), len(steps)).astype(np.float32)
+    lines = np.asarray(grey).reshape(count, len(_LINES), len(steps)).astype(np.float32)
     total = lines[:, 0] + lines[:, 1]
     total += lines[:, 2]
     total /= 3

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from server.vision.edge_profiles import EdgeOffsets
+from server.vision.fitting.edge_profiles import EdgeOffsets
 from server.vision.projection import Array
 
 LEAST_EDGES = 24
