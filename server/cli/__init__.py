@@ -21,6 +21,7 @@ class _Subcommand:
 _SUBCOMMANDS = {
     "serve": _Subcommand("server.cli.serve", "Run the robot, its pages and its API."),
     "simulate": _Subcommand("server.cli.simulate", "Run jobs on the simulator, without pages."),
+    "label": _Subcommand("server.cli.label", "Make a label for a vehicle, to be printed."),
     "locate": _Subcommand("server.cli.locate", "Find the socket in pictures."),
     "firmware": _Subcommand("server.cli.firmware", "Build and write the board's firmware."),
     "config": _Subcommand("server.cli.config", "Print the settings in force."),
