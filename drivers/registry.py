@@ -12,8 +12,14 @@ from drivers.arduino.settings import BoardSettings
 from drivers.camera import CameraDriver, CameraModel
 from drivers.errors import UnknownDriverError
 from drivers.robot import RobotDriver
-from drivers.simulator.garage import SimulatedGarage, build_garage
+from drivers.simulator.garage import (
+    FollowedGarage,
+    SimulatedGarage,
+    build_followed_garage,
+    build_garage,
+)
 from drivers.simulator.parameters import SimulationParameters
+from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationDriver
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
@@ -59,7 +65,7 @@ class DeviceRequest:
 
     @cached_property
     def garage(self) -> SimulatedGarage:
-        """The one simulated garage that all simulated devices share."""
+        """The one simulated garage that all simulated devices share with a simulated robot."""
         return build_garage(
             self.geometry,
             self.limits,
@@ -68,6 +74,23 @@ class DeviceRequest:
             parameters=self.simulation,
             seed=self.seed,
         )
+
+    @cached_property
+    def followed(self) -> FollowedGarage:
+        """The one that they share around a real robot."""
+        return build_followed_garage(
+            self.geometry,
+            self.limits,
+            self.mount,
+            self.optics,
+            parameters=self.simulation,
+            seed=self.seed,
+        )
+
+    @property
+    def surroundings(self) -> SimulatedGarage | FollowedGarage:
+        """Where the simulated camera and station are."""
+        return self.garage if self.simulated else self.followed
 
 
 SIMULATOR = "simulator"
@@ -80,10 +103,10 @@ ROBOTS: Mapping[str, Callable[[DeviceRequest], RobotDriver]] = {
     ),
 }
 CAMERAS: Mapping[str, Callable[[DeviceRequest], CameraDriver]] = {
-    SIMULATOR: lambda request: request.garage.camera,
+    SIMULATOR: lambda request: request.surroundings.camera,
 }
 STATIONS: Mapping[str, Callable[[DeviceRequest], StationDriver]] = {
-    SIMULATOR: lambda request: request.garage.station,
+    SIMULATOR: lambda request: request.surroundings.station,
 }
 
 
@@ -95,13 +118,22 @@ class Devices:
         robot: The motion board.
         camera: The camera on the platform.
         station: The charging station.
-        garage: The simulated garage behind them; None without a simulated robot.
+        garage: The simulated garage with a simulated robot in it; None with a real robot.
+        followed: The simulated garage around a real robot; None where nothing else is simulated,
+            or everything. Its follower wants the telemetry of the robot.
     """
 
     robot: RobotDriver
     camera: CameraDriver
     station: StationDriver
     garage: SimulatedGarage | None
+    followed: FollowedGarage | None = None
+
+    @property
+    def world(self) -> SimulatedWorld | None:
+        """What simulated devices stand in; None without any."""
+        around = self.garage or self.followed
+        return around.world if around is not None else None
 
 
 def make_devices(request: DeviceRequest) -> Devices:
@@ -110,11 +142,13 @@ def make_devices(request: DeviceRequest) -> Devices:
     Raises:
         UnknownDriverError: there is no driver of one of the names.
     """
+    around_real_robot = not request.simulated and SIMULATOR in {request.camera, request.station}
     return Devices(
         robot=_choose(ROBOTS, "robot", request.robot)(request),
         camera=_choose(CAMERAS, "camera", request.camera)(request),
         station=_choose(STATIONS, "station", request.station)(request),
         garage=request.garage if request.simulated else None,
+        followed=request.followed if around_real_robot else None,
     )
 
 

@@ -11,8 +11,9 @@ import cv2
 
 from drivers.camera import CameraError
 from drivers.errors import UnknownDriverError
-from drivers.registry import DeviceRequest, Devices, make_devices
+from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
 from drivers.simulator.car import ParkedCar
+from drivers.simulator.following import RobotFollower
 from drivers.station import StationError
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
@@ -56,6 +57,7 @@ async def running(
     settings: Settings,
     *,
     folder: Path | None,
+    devices: Devices | None = None,
     twin: TwinHost | None = None,
     wait_for_robot: bool = True,
 ) -> AsyncIterator[Services]:
@@ -64,6 +66,7 @@ async def running(
     Args:
         settings: The whole configuration.
         folder: Where data is kept; None keeps it in memory.
+        devices: To be used in place of those that the settings name.
         twin: The 3D picture to feed, if any; started by the caller.
         wait_for_robot: Be ready only after the first attempt to reach the motion board. Pages
             need not wait for that: a board takes a second to start.
@@ -76,7 +79,7 @@ async def running(
     cv2.setNumThreads(1)
     speed = settings.clock_speed
     calendar = Calendar(speed)
-    devices = _devices(settings)
+    devices = devices or _devices(settings)
     async with contextlib.AsyncExitStack() as stack:
         database = Database(folder)
         await database.open()
@@ -84,12 +87,14 @@ async def running(
         jobs, vehicles = JobStore(database), VehicleStore(database)
 
         await _open(devices, stack)
-        if devices.garage is not None:
-            await _introduce(devices.garage.world.car, vehicles)
+        if devices.world is not None and settings.camera.driver == SIMULATOR:
+            await _introduce(devices.world.car, vehicles)
 
         supervisor = Supervisor(
             devices.robot, settings.geometry, settings.motion, StoredPlug(database), calendar
         )
+        if devices.followed is not None:
+            _let_follow(devices.followed.follower, supervisor)
         runner = JobRunner(
             supervisor=supervisor,
             eye=Eye(
@@ -192,6 +197,17 @@ async def _introduce(car: ParkedCar, vehicles: VehicleStore) -> None:
     )
 
 
+def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
+    """Let the simulated surroundings of a real robot know where it stands."""
+
+    def pass_on() -> None:
+        state = supervisor.telemetry.latest
+        if state is not None:
+            follower.take(state)
+
+    supervisor.listen(pass_on)
+
+
 def _show(services: Services) -> None:
     """Connect what changes to those who watch."""
     live, supervisor, runner = services.live, services.supervisor, services.runner
@@ -228,7 +244,8 @@ def _show(services: Services) -> None:
 def _service(services: Services) -> Service:
     return Service(
         version=VERSION,
-        simulated=services.garage is not None,
+        simulated=services.settings.simulated,
+        simulated_parts=services.settings.simulated_parts,
         speed=services.settings.clock_speed,
         camera_online=services.camera.online,
         started_at=services.started_at,

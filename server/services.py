@@ -38,7 +38,7 @@ class Services:
         camera: Pictures for people.
         live: Pushes what changes.
         twin: The 3D picture; None where nobody can watch.
-        garage: The simulated garage behind the drivers; None with a real robot.
+        garage: The simulated garage with a simulated robot in it; None with a real robot.
     """
 
     settings: Settings

@@ -29,6 +29,9 @@ MAX_LAG_S = 0.25
 MAX_DRIFT = timedelta(milliseconds=100)
 """Dates and the wall clock may differ by this much."""
 
+PassTime = Callable[[float, float | None], float]
+"""Lets time pass from now until a timer, or without an end, and returns the time it has become."""
+
 
 class NothingLeftToWaitForError(RuntimeError):
     """Every task of a virtual-time loop waits for something that can never happen."""
@@ -58,22 +61,31 @@ class _DelegatingSelector(selectors.BaseSelector):
         return self._system.select(timeout)
 
 
+def skip_time(now_s: float, until_s: float | None) -> float:  # noqa: ARG001 - a PassTime
+    """Nothing happens in between.
+
+    Raises:
+        NothingLeftToWaitForError: there is no timer.
+    """
+    if until_s is None:
+        raise NothingLeftToWaitForError("all tasks wait, and no timer is set that could wake one")
+    return until_s
+
+
 class _SkippingSelector(_DelegatingSelector):
     """Instead of waiting for a timeout, moves the clock on by it."""
 
-    def __init__(self) -> None:
+    def __init__(self, pass_time: PassTime) -> None:
         super().__init__()
         self.now_s = 0.0
+        self._pass_time = pass_time
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
         ready = super().select(0)
         if ready or timeout == 0:
             return ready
-        if timeout is None:
-            raise NothingLeftToWaitForError(
-                "all tasks wait, and no timer is set that could wake one"
-            )
-        self.now_s += timeout
+        until_s = None if timeout is None else self.now_s + timeout
+        self.now_s = self._pass_time(self.now_s, until_s)
         return []
 
 
@@ -82,10 +94,14 @@ class VirtualTimeLoop(asyncio.SelectorEventLoop):
 
     Work given to executors (``asyncio.to_thread``) runs at once, in order, so a run depends on
     nothing but its inputs. Sockets are only polled: do not use it for network traffic.
+
+    Args:
+        pass_time: Called when all tasks wait; may return before the timer, when something has
+            happened and was given to the loop (``call_soon``). By default nothing ever happens.
     """
 
-    def __init__(self) -> None:
-        self._skipping = _SkippingSelector()
+    def __init__(self, pass_time: PassTime = skip_time) -> None:
+        self._skipping = _SkippingSelector(pass_time)
         super().__init__(self._skipping)
         # How early asyncio may call a timer. Its default of 1 ns is lost in rounding once the
         # clock shows months: a timer that is due exactly now would never be.

@@ -15,7 +15,7 @@ from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
 from drivers.arduino.protocol.messages import Fault, ResetCause, State
 from drivers.arduino.scale import AxisScale
-from drivers.arduino.serial_port import SerialPort, open_serial
+from drivers.arduino.serial_port import Line, OpenLine
 from drivers.arduino.session import Session
 from drivers.arduino.settings import BoardSettings
 from drivers.arduino.tracker import Tracker
@@ -50,7 +50,7 @@ class Connection:
 
     def __init__(
         self,
-        port: SerialPort,
+        port: Line,
         hello: messages.Hello,
         *,
         settings: BoardSettings,
@@ -232,6 +232,7 @@ class _Switch:
 async def connect_board(
     port: str,
     *,
+    open_line: OpenLine,
     settings: BoardSettings,
     geometry: RobotGeometry,
     limits: MotionLimits,
@@ -246,14 +247,14 @@ async def connect_board(
     """
     device = await asyncio.to_thread(find_board, port)
     switch = _Switch()
-    serial = await open_serial(device, switch.hear, switch.lose)
+    line = await open_line(device, switch.hear, switch.lose)
     try:
-        switch.handshake = Handshake(serial)
+        switch.handshake = Handshake(line)
         hello = await switch.handshake.run()
         if hello.reset_cause == ResetCause.WATCHDOG:
             _log.error("the board's firmware hung and was restarted by its watchdog")
         connection = Connection(
-            serial,
+            line,
             hello,
             settings=settings,
             geometry=geometry,
@@ -262,7 +263,7 @@ async def connect_board(
             on_lost=on_lost,
         )
     except BaseException:
-        await serial.close()
+        await line.close()
         raise
     switch.session = connection.session
     try:

@@ -11,6 +11,7 @@ from drivers.arduino.connection import Connection, connect_board
 from drivers.arduino.errors import LinkLostError
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.messages import Fault
+from drivers.arduino.serial_port import OpenLine, open_serial
 from drivers.arduino.settings import BoardSettings
 from drivers.robot import (
     BoardRefusedError,
@@ -44,12 +45,20 @@ class ArduinoRobot:
         geometry: Gives the travel of the joints.
         limits: How fast they may move.
         settings: Of the board.
+        open_line: Opens the port.
     """
 
     def __init__(
-        self, port: str, geometry: RobotGeometry, limits: MotionLimits, settings: BoardSettings
+        self,
+        port: str,
+        geometry: RobotGeometry,
+        limits: MotionLimits,
+        settings: BoardSettings,
+        *,
+        open_line: OpenLine = open_serial,
     ) -> None:
         self._port = port
+        self._open_line = open_line
         self._geometry = geometry
         self._limits = limits
         self._settings = settings
@@ -74,6 +83,7 @@ class ArduinoRobot:
             if self._connection is None:
                 self._connection = await connect_board(
                     self._port,
+                    open_line=self._open_line,
                     settings=self._settings,
                     geometry=self._geometry,
                     limits=self._limits,

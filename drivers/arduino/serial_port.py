@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable
 from functools import partial
 from queue import SimpleQueue
+from typing import Protocol
 
 import serial
 
@@ -25,8 +26,37 @@ OnFrames = Callable[[list[Frame], float], None]
 OnLost = Callable[[str], None]
 
 
+class Line(Protocol):
+    """An open line to a board."""
+
+    def write(self, data: bytes) -> None:
+        """Send bytes; returns at once."""
+        ...
+
+    async def close(self) -> None:
+        """Send what is queued and close the line. Safe to call twice."""
+        ...
+
+
+class OpenLine(Protocol):
+    """Opens lines. That may reset the board."""
+
+    async def __call__(self, device: str, on_frames: OnFrames, on_lost: OnLost) -> Line:
+        """Open the line at a device.
+
+        Args:
+            device: As the configuration names it.
+            on_frames: Gets intact frames and when their last byte came, in event loop time.
+            on_lost: Gets a sentence when the line breaks; called at most once.
+
+        Raises:
+            BoardNotFoundError: it cannot be opened.
+        """
+        ...
+
+
 class SerialPort:
-    """An open port. The callbacks run in the event loop.
+    """An open serial port: a Line. The callbacks run in the event loop.
 
     Args:
         line: The open port.

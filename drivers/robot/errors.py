@@ -8,9 +8,24 @@ RobotDriverError
 
 from __future__ import annotations
 
+import re
+from typing import ClassVar
+
+_BETWEEN_WORDS = re.compile(r"(?<=[a-z])(?=[A-Z])")
+
 
 class RobotDriverError(Exception):
-    """Something went wrong between the host and the motion board."""
+    """Something went wrong between the host and the motion board.
+
+    Attributes:
+        code: Stable name of what it was: that of the type, such as not_connected.
+    """
+
+    code: ClassVar[str] = "robot_driver"
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.code = _BETWEEN_WORDS.sub("_", cls.__name__.removesuffix("Error")).lower()
 
 
 class NotConnectedError(RobotDriverError):

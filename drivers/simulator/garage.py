@@ -1,4 +1,4 @@
-"""One simulated garage, ready to be used in place of the real one."""
+"""One simulated garage, ready to be used in place of the real one, or around a real robot."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from drivers.camera import CameraModel
 from drivers.simulator.build import built_optics
 from drivers.simulator.camera import ImagingParameters, SimulatedCamera
+from drivers.simulator.following import RobotFollower, without_motors
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.robot import SimulatedRobot
 from drivers.simulator.station import SimulatedStation
@@ -33,6 +34,23 @@ class SimulatedGarage:
     station: SimulatedStation
 
 
+@dataclass(frozen=True, slots=True)
+class FollowedGarage:
+    """What stands around a robot that is not simulated.
+
+    Attributes:
+        world: Physics, car and truth; its robot stands where the real one says it stands.
+        camera: A CameraDriver.
+        station: A StationDriver.
+        follower: To be given the telemetry of the robot.
+    """
+
+    world: SimulatedWorld
+    camera: SimulatedCamera
+    station: SimulatedStation
+    follower: RobotFollower
+
+
 def build_garage(
     geometry: RobotGeometry,
     limits: MotionLimits,
@@ -55,6 +73,32 @@ def build_garage(
         imaging: Light, exposure and noise of the camera; None takes its defaults.
     """
     world = SimulatedWorld(geometry, limits, mount, parameters, seed)
-    true_optics = built_optics(optics, parameters.build, world.streams.optics)
-    camera = SimulatedCamera(world.view_at, true_optics, imaging or ImagingParameters(), seed)
+    camera = _camera(world, optics, imaging, seed)
     return SimulatedGarage(world, SimulatedRobot(world), camera, SimulatedStation(world))
+
+
+def build_followed_garage(
+    geometry: RobotGeometry,
+    limits: MotionLimits,
+    mount: CameraMount,
+    optics: CameraModel,
+    parameters: SimulationParameters,
+    *,
+    seed: int,
+    imaging: ImagingParameters | None = None,
+) -> FollowedGarage:
+    """Build a garage around a robot that is not simulated.
+
+    It takes what ``build_garage`` takes, and with the same seed it is the same garage: the same
+    car, the same camera, the same errors of the build.
+    """
+    world = SimulatedWorld(geometry, limits, mount, without_motors(parameters), seed)
+    camera = _camera(world, optics, imaging, seed)
+    return FollowedGarage(world, camera, SimulatedStation(world), RobotFollower(world))
+
+
+def _camera(
+    world: SimulatedWorld, optics: CameraModel, imaging: ImagingParameters | None, seed: int
+) -> SimulatedCamera:
+    true_optics = built_optics(optics, world.parameters.build, world.streams.optics)
+    return SimulatedCamera(world.view_at, true_optics, imaging or ImagingParameters(), seed)

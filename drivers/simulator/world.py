@@ -161,6 +161,11 @@ class SimulatedWorld:
 
     # --- time --------------------------------------------------------------------------------
 
+    @property
+    def now_s(self) -> float:
+        """Up to when everything is worked out."""
+        return self._state.t_s
+
     def advance(self, now_s: float) -> PlantState:
         """Work out everything up to a time and return the state then."""
         if now_s <= self._state.t_s:

@@ -14,6 +14,8 @@ from twin.camera_mount import CameraMount
 class CameraSettings(Section):
     """The camera on the platform."""
 
-    driver: Literal["simulator"] = Field("simulator", description="Kind of camera")
+    driver: Literal["simulator"] = Field(
+        "simulator", description="Kind of camera; a simulated one goes with a real robot, too"
+    )
     optics: CameraModel = Field(default_factory=pi_camera_v2)
     mount: CameraMount = CameraMount()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
@@ -51,7 +51,13 @@ class Settings(BaseSettings):
     @property
     def simulated(self) -> bool:
         """No real robot moves."""
-        return self.robot.driver == "simulator"
+        return "robot" in self.simulated_parts
+
+    @property
+    def simulated_parts(self) -> list[Literal["robot", "camera", "station"]]:
+        """What is not real. Around a real robot the other parts follow what it reports."""
+        parts: list[Literal["robot", "camera", "station"]] = ["robot", "camera", "station"]
+        return [part for part in parts if getattr(self, part).driver == "simulator"]
 
     @property
     def clock_speed(self) -> float:

@@ -9,7 +9,7 @@ from server.config.section import Section
 
 
 class SimulationSettings(Section):
-    """Chance, time and physics of the simulated world; without meaning for real drivers."""
+    """Chance, time and physics of the simulated world; a real robot keeps real time."""
 
     seed: int = Field(0, ge=0, le=2**63 - 1, description="Same seed, same noise, same car")
     speed: float = Field(1.0, gt=0, le=100, description="Simulated seconds per second")

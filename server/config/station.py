@@ -12,4 +12,6 @@ from server.config.section import Section
 class StationSettings(Section):
     """The charging station that the robot's plug hangs on."""
 
-    driver: Literal["simulator"] = Field("simulator", description="Kind of station")
+    driver: Literal["simulator"] = Field(
+        "simulator", description="Kind of station; a simulated one goes with a real robot, too"
+    )

@@ -28,7 +28,7 @@ class RobotLink:
 
     Attributes:
         identity: What answered last, None before anything did.
-        trouble: Why there is no link, in the driver's words; None while there is one.
+        trouble: Why there is no link; None while there is one.
     """
 
     def __init__(
@@ -41,7 +41,7 @@ class RobotLink:
         on_lost: Callable[[], None],
     ) -> None:
         self.identity: RobotIdentity | None = None
-        self.trouble: str | None = None
+        self.trouble: RobotDriverError | None = None
         self._driver = driver
         self._telemetry = telemetry
         self._on_connected = on_connected
@@ -75,7 +75,7 @@ class RobotLink:
                 self.trouble = None
                 await self._read()
             except RobotDriverError as error:
-                self._note(str(error))
+                self._note(error)
             except Exception:  # noqa: BLE001 - such as a full disk; it is logged
                 # Without anybody who watches it, the robot must stand still.
                 _log.exception("the link to the motion board broke down; connecting anew")
@@ -94,9 +94,9 @@ class RobotLink:
                 first = False
             await self._on_sample(state)
 
-    def _note(self, trouble: str) -> None:
+    def _note(self, trouble: RobotDriverError) -> None:
         """Log what is wrong once, not at every attempt."""
-        if trouble != self.trouble:
+        if str(trouble) != str(self.trouble):
             _log.warning("no link to the motion board: %s", trouble)
         self.trouble = trouble
 

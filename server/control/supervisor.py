@@ -14,6 +14,7 @@ from drivers.robot import (
     BoardState,
     FaultCode,
     RobotDriver,
+    RobotDriverError,
     RobotState,
     StopCategory,
 )
@@ -106,8 +107,8 @@ class Supervisor:
         return self._link.identity.name if self._link.identity else "not connected"
 
     @property
-    def link_trouble(self) -> str | None:
-        """Why there is no link to the motion board, in the driver's words."""
+    def link_trouble(self) -> RobotDriverError | None:
+        """Why there is no link to the motion board."""
         return self._link.trouble
 
     def listen(self, listener: Callable[[], None]) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from drivers.robot import RobotState
+from drivers.robot import RobotDriverError, RobotState
 from drivers.station import StationSnapshot
-from server.control.errors import RobotOfflineError
 from server.control.faults import words_for
 from server.control.supervisor import Supervisor
+from server.control.trouble import words_for_trouble
 from server.localisation.socket_pose import SocketPose
 from server.schema.robot import (
     CommandedMotion,
@@ -104,15 +104,11 @@ def _tip(geometry: RobotGeometry, position: JointPosition) -> Tip | None:
     return Tip(x_mm=round(tip.x_mm, 3), y_mm=round(tip.y_mm, 3), z_mm=round(tip.z_mm, 3))
 
 
-def _no_link(trouble: str | None) -> RobotFault | None:
+def _no_link(trouble: RobotDriverError | None) -> RobotFault | None:
     if trouble is None:
         return None
-    return RobotFault(
-        code=RobotOfflineError.code,
-        title=RobotOfflineError.title,
-        detail=trouble,
-        remedy=RobotOfflineError.remedy,
-    )
+    words = words_for_trouble(trouble)
+    return RobotFault(code=words.code, title=words.title, detail=str(trouble), remedy=words.remedy)
 
 
 def _fault(state: RobotState) -> RobotFault | None:

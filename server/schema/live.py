@@ -25,6 +25,9 @@ class Service(Wire):
 
     version: str
     simulated: bool = Field(description="No real robot moves")
+    simulated_parts: list[Literal["robot", "camera", "station"]] = Field(
+        description="What is simulated; around a real robot the other parts follow its telemetry"
+    )
     speed: float = Field(description="Simulated seconds per second; 1 for a real robot")
     camera_online: bool
     started_at: Timestamp

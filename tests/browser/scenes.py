@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
+from typing import Literal
 
 from server.control.model import PlugState, RobotMode
 from server.jobs.model import JobPhase, JobState, JobType
@@ -19,6 +20,8 @@ from server.schema.robot import (
     Tip,
 )
 from server.schema.station import Station
+
+Part = Literal["robot", "camera", "station"]
 
 NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
 _JOINTS = Joints(rho1_mm=203.2, rho2_mm=198.7, rho3_mm=92.4)
@@ -112,6 +115,7 @@ def live(
     station_now: Station | None = None,
     *,
     speed: float = 10,
+    simulated: tuple[Part, ...] = ("robot", "camera", "station"),
 ) -> Live:
     """Every section together."""
     return Live(
@@ -119,7 +123,12 @@ def live(
         job=job_now,
         station=station_now or station(),
         service=Service(
-            version="0.1.0", simulated=True, speed=speed, camera_online=True, started_at=NOW
+            version="0.1.0",
+            simulated="robot" in simulated,
+            simulated_parts=list(simulated),
+            speed=speed,
+            camera_online=True,
+            started_at=NOW,
         ),
     )
 
@@ -161,6 +170,21 @@ SCENES: dict[str, Live] = {
                 remedy="Look whether something blocks the arm, then release and find position.",
             ),
         )
+    ),
+    "no_board": live(
+        robot(
+            RobotMode.OFFLINE,
+            PlugState.UNKNOWN,
+            fault=RobotFault(
+                code="board_not_found",
+                title="No motion board at its port",
+                detail="The port /dev/serial/by-id/usb-1a86_USB2.0-Serial-if00-port0 cannot be "
+                "opened: No such file or directory.",
+                remedy="Check that the board has power, and that its USB cable is in at both ends.",
+            ),
+        ),
+        speed=1,
+        simulated=("camera", "station"),
     ),
     "offline": live(robot(RobotMode.OFFLINE, PlugState.UNKNOWN)),
     "jog": live(

@@ -178,6 +178,27 @@ suite("the sentence", () => {
     });
   });
 
+  test("of a missing link is the robot's own as soon as it knows why", () => {
+    const fault = { code: "x", title: "No board", detail: "No such port.", remedy: "Plug it in." };
+    expect(said({ robot: robot({ mode: "offline", fault }) })).toMatchObject({
+      headline: "No board",
+      detail: "No such port.",
+      remedy: "Plug it in.",
+      action: null,
+    });
+    expect(said({ robot: robot({ mode: "offline" }) })).toMatchObject({
+      headline: "The robot is not answering",
+      remedy: "",
+    });
+  });
+
+  test("of an emergency stop tells how to end it, whoever pressed it", () => {
+    const fault = { code: "emergency_stop", title: "Stop", detail: "Open.", remedy: "Turn it." };
+    const mode = "emergency_stop";
+    expect(said({ robot: robot({ mode, fault }) }).remedy).toBe("Turn it.");
+    expect(said({ robot: robot({ mode }) }).remedy).toContain("release the stop");
+  });
+
   test("names who moves the robot by hand", () => {
     const control = { kind: "jog" as const, name: "Anna", since: at(0) };
     expect(said({ robot: robot({ mode: "moving", control }) }).detail).toContain("Anna");

@@ -225,8 +225,17 @@ describe("the connection", () => {
   test("shows that a simulator is one, and how fast it runs", async () => {
     show(live());
     expect(await screen.findByText("Simulator ×10")).toBeTruthy();
-    show(live({ service: { ...live().service, simulated: false, speed: 1 } }));
-    await waitFor(() => expect(screen.queryByText(/Simulator/)).toBeNull());
+    const real = { ...live().service, simulated: false, simulated_parts: [], speed: 1 };
+    show(live({ service: real }));
+    await waitFor(() => expect(screen.queryByText(/Simulat/)).toBeNull());
+  });
+
+  test("shows that a real robot may look at a simulated car", async () => {
+    const service = { ...live().service, simulated: false, speed: 1 };
+    show(live({ service: { ...service, simulated_parts: ["camera", "station"] } }));
+    expect(await screen.findByText("Simulated car")).toBeTruthy();
+    show(live({ service: { ...service, simulated_parts: ["station"] } }));
+    expect(await screen.findByText("Simulated station")).toBeTruthy();
   });
 });
 

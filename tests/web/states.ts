@@ -88,6 +88,7 @@ export function live(changes: Partial<Live> = {}): Live {
     service: {
       version: "0.1.0",
       simulated: true,
+      simulated_parts: ["robot", "camera", "station"],
       speed: 10,
       camera_online: true,
       started_at: START,

@@ -84,8 +84,9 @@ export const words = {
     },
     emergency: {
       headline: "Emergency stop",
-      detail: "Everything stands still. Make sure that nobody is near the plug, then release it.",
+      detail: "Everything stands still.",
     },
+    emergencyRemedy: "Make sure that nobody is near the plug, then release the stop.",
     stopped: {
       headline: "Stopped",
       detail: "The robot holds still until you release the stop.",
@@ -182,6 +183,7 @@ export const words = {
   },
   link: { connecting: "Connecting", live: "Live", lost: "Reconnecting", quiet: "No news" },
   simulator: (speed: number): string => (speed === 1 ? "Simulator" : `Simulator ×${String(speed)}`),
+  simulated: { car: "Simulated car", camera: "Simulated camera", station: "Simulated station" },
   steps: { title: "Progress", done: "done" },
   station: {
     title: "Charging station",
@@ -214,6 +216,8 @@ export const words = {
     tip: "Plug tip",
     force: "Force",
     socket: "Socket found to",
+    simulated: "Not real",
+    simulatedParts: { robot: "robot", camera: "camera", station: "charging station" },
     version: "Software",
     enable: "Switch on",
     disable: "Switch off",

@@ -54,7 +54,9 @@ def test_config_prints_the_settings_in_force(monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["serve", "--port", "high"], 'server.port = "high" in option --port'),
+        (["serve", "--port", "99999"], 'server.port = "99999" in option --port'),
+        (["serve", "--port", "-1"], 'server.port = "-1" in option --port'),
+        (["serve", "--driver", "arduino", "--serial", ""], 'robot.port = "" in option --serial'),
         (["serve", "--speed", "0"], 'simulation.speed = "0" in option --speed: must be greater'),
         (["serve", "--driver", "lego"], 'robot.driver = "lego" in option --driver'),
         (["serve", "--config", "none.toml"], "none.toml cannot be read (No such file"),

@@ -258,7 +258,8 @@ def test_whoever_waits_for_telemetry_learns_that_the_link_is_gone() -> None:
 
 def trouble_of(cell: RobotCell) -> str | None:
     """Read anew each time: what was asserted of it before says nothing about now."""
-    return cell.supervisor.link_trouble
+    trouble = cell.supervisor.link_trouble
+    return None if trouble is None else str(trouble)
 
 
 def test_why_there_is_no_link_is_known_and_logged_once(caplog: pytest.LogCaptureFixture) -> None:

@@ -982,6 +982,11 @@ export interface components {
              */
             readonly simulated: boolean;
             /**
+             * Simulated Parts
+             * @description What is simulated; around a real robot the other parts follow its telemetry
+             */
+            readonly simulated_parts: readonly ("robot" | "camera" | "station")[];
+            /**
              * Speed
              * @description Simulated seconds per second; 1 for a real robot
              */

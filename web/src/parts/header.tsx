@@ -1,10 +1,20 @@
 import { useComputed } from "@preact/signals";
+import type { Service } from "@/api/wire";
 import { store } from "@/live/page";
 import { words } from "@/words";
+
+/** What is not real; camera and station together are the car as far as a robot can tell. */
+function notReal({ simulated_parts: parts, speed }: Service): string | null {
+  if (parts.includes("robot")) return words.simulator(speed);
+  if (parts.length > 1) return words.simulated.car;
+  if (parts.includes("camera")) return words.simulated.camera;
+  return parts.includes("station") ? words.simulated.station : null;
+}
 
 /** The name, the simulator's badge and the state of the connection. */
 export function Header() {
   const service = useComputed(() => store.live.value?.service ?? null).value;
+  const badge = service === null ? null : notReal(service);
   const link = store.link.value;
   const quiet = link === "live" && store.stale.value;
   return (
@@ -16,9 +26,7 @@ export function Header() {
         </svg>
         PlugPilot
       </span>
-      {service?.simulated === true && (
-        <span class="badge">{words.simulator(service.speed)}</span>
-      )}
+      {badge !== null && <span class="badge">{badge}</span>}
       <span class="link" data-link={quiet ? "quiet" : link} role="status">
         {quiet ? words.link.quiet : words.link[link]}
       </span>

@@ -47,6 +47,11 @@ function RobotFigures() {
           {socket === null ? say.unknown : `± ${socket.lateral_sigma_mm.toFixed(2)} mm`}
         </Row>
         <Row label={say.driver}>{robot.driver}</Row>
+        {service.simulated_parts.length > 0 && (
+          <Row label={say.simulated}>
+            {service.simulated_parts.map((part) => say.simulatedParts[part]).join(", ")}
+          </Row>
+        )}
         <Row label={say.version}>{service.version}</Row>
       </dl>
       <div class="switch">

@@ -91,7 +91,8 @@ function describeHalt(robot: Robot, base: Base): Description | null {
     case "offline":
       return {
         ...base,
-        ...withPlugNote(say.offline, robot),
+        ...withPlugNote(faultSentence(robot) ?? say.offline, robot),
+        remedy: robot.fault?.remedy ?? "",
         tone: "problem",
         scene: { arm: armOf(robot), mark: "asleep" },
         action: null,
@@ -100,23 +101,20 @@ function describeHalt(robot: Robot, base: Base): Description | null {
       return {
         ...base,
         ...withPlugNote(say.emergency, robot),
+        remedy: robot.fault?.remedy ?? say.emergencyRemedy,
         tone: "problem",
         scene: alert,
         action: { kind: "reset", label: label.release },
       };
-    case "fault": {
-      const { fault } = robot;
-      const sentence =
-        fault === null ? say.faultUnnamed : { headline: fault.title, detail: fault.detail };
+    case "fault":
       return {
         ...base,
-        ...withPlugNote(sentence, robot),
-        remedy: fault?.remedy ?? "",
+        ...withPlugNote(faultSentence(robot) ?? say.faultUnnamed, robot),
+        remedy: robot.fault?.remedy ?? "",
         tone: "problem",
         scene: alert,
         action: { kind: "reset", label: label.clear },
       };
-    }
     case "stopped":
       return {
         ...base,
@@ -240,6 +238,11 @@ function isRecent(robot: Robot, job: Job): boolean {
 
 function cancel(): Action {
   return { kind: "cancel", label: label.cancel };
+}
+
+/** Why the robot stands still, in the server's words. */
+function faultSentence({ fault }: Robot): Sentence | null {
+  return fault === null ? null : { headline: fault.title, detail: fault.detail };
 }
 
 function withPlugNote(sentence: Sentence, robot: Robot): Sentence {
