@@ -13,6 +13,7 @@ VisionError
 └── PoseRejectedError           the code was read, but its pose does not deserve trust
     ├── MirroredCodeError       it is seen in a mirror, or the camera flips its pictures
     ├── FitFailedError          its edges lead to no pose
+    ├── AmbiguousTiltError      two opposite tilts explain the picture
     ├── LabelCutOffError        it is partly outside the picture
     ├── EdgesDoNotFitError      the edges lie off a flat code of this kind
     ├── EdgesDisagreeError      too many edges are elsewhere, or covered
@@ -132,6 +133,14 @@ class FitFailedError(PoseRejectedError):
 
     code = "fit_failed"
     remedy = "Check that the label is in focus, evenly lit and not half hidden."
+
+
+class AmbiguousTiltError(PoseRejectedError):
+    """Two opposite tilts explain the picture equally well: the label is too small or too far."""
+
+    code = "tilt_ambiguous"
+    title = "The label is too far away to measure its tilt"
+    remedy = "Use a larger label, or park nearer."
 
 
 class LabelCutOffError(PoseRejectedError):

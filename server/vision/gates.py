@@ -31,6 +31,9 @@ class Gates:
     Attributes:
         rms_modules: Largest root mean square edge distance, in modules ...
         rms_px: ... or in pixels, whichever is more: small codes are drawn by few pixels.
+        bow_modules: The same for the largest mean distance in any part of the code, which tells a
+            bent or pasted-over label from a noisy picture, in modules ...
+        bow_px: ... or in pixels.
         inlier_share: Smallest share of edges that agree.
         bit_agreement: Smallest share of modules that look as the code says.
         nearest_mm: Smallest distance along the optical axis.
@@ -46,7 +49,9 @@ class Gates:
 
     rms_modules: float = 0.06
     rms_px: float = 0.35
-    inlier_share: float = 0.6
+    bow_modules: float = 0.06
+    bow_px: float = 0.35
+    inlier_share: float = 0.82
     bit_agreement: float = 0.85
     nearest_mm: float = 40.0
     farthest_mm: float = 2000.0
@@ -105,10 +110,18 @@ class Gates:
         pose = fit.T_camera_label
         corners = project(camera, pose, corners_mm(label_size_mm)).pixels
         side_px = float(np.mean(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)))
-        most_px = max(self.rms_px, self.rms_modules * side_px / modules.shape[0])
+        module_px = side_px / modules.shape[0]
+        most_px = max(self.rms_px, self.rms_modules * module_px)
         if not fit.rms_px <= most_px:
             detail = f"The edges are {fit.rms_px:.2f} px off; at most {most_px:.2f} px are allowed."
             raise EdgesDoNotFitError(detail, rms_px=round(fit.rms_px, 3))
+        most_bow_px = max(self.bow_px, self.bow_modules * module_px)
+        if not fit.bow_px <= most_bow_px:
+            detail = (
+                f"A part of the code is {fit.bow_px:.2f} px beside where a flat label has it; "
+                f"at most {most_bow_px:.2f} px are allowed."
+            )
+            raise EdgesDoNotFitError(detail, bow_px=round(fit.bow_px, 3))
         if fit.inlier_share < self.inlier_share:
             detail = f"Only {fit.inlier_share:.0%} of the edges agree with the fit."
             raise EdgesDisagreeError(detail, inlier_share=round(fit.inlier_share, 3))

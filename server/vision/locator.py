@@ -18,8 +18,9 @@ from server.vision.errors import (
 from server.vision.fitting.bit_agreement import bit_agreement
 from server.vision.fitting.code_edges import code_edges
 from server.vision.fitting.corner_pose import corner_pose
-from server.vision.fitting.edge_fit import fit_edges
+from server.vision.fitting.edge_fit import EdgeFit, fit_edges
 from server.vision.fitting.start_pose import corners_mm, start_poses
+from server.vision.fitting.two_poses import fit_best
 from server.vision.gates import Gates
 from server.vision.label_pose import LabelPose
 from server.vision.markers.code import Code
@@ -36,8 +37,8 @@ from server.vision.projection import project
 Image = NDArray[np.uint8]
 Pose = NDArray[np.float64]
 
-UNDOUBTED_RMS_PX = 0.1
-"""A fit this good did not settle on the opposite tilt; of those it leaves more than 0.2 px."""
+_INVERTED_AGREEMENT = 0.4
+"""A code whose modules agree with less than this is white on black."""
 
 
 @dataclass(slots=True)
@@ -117,7 +118,7 @@ class Locator:
         check_resolution(image, self._camera)
         if predicted is None:
             return self.fit(image, self.read(image, expected_payload), label_size_mm)
-        found = self._tracked(image, label_size_mm, expected_payload, predicted)
+        found = self._followed(image, label_size_mm, expected_payload, predicted)
         if found is None:
             found = self.fit(image, self.read(image, expected_payload), label_size_mm)
         self._gates.check_jump(found.T_camera_label, predicted)
@@ -159,26 +160,15 @@ class Locator:
         check_picture(image)
         if code.mirrored:
             raise MirroredCodeError(f"The code {code.payload!r} is mirrored.")
-        found: LabelPose | None = None
-        rejection: PoseRejectedError = FitFailedError(
-            "The corners are not those of a square before the camera."
-        )
-        track = _Track(code.payload, code.modules, inverted=False)
-        for start in start_poses(self._camera, code.corners_px, label_size_mm):
-            pose = start.T_camera_label
-            agreement = bit_agreement(image, self._camera, code.modules, pose, label_size_mm)
-            track.inverted = agreement < 0.4
-            try:
-                fit = self._refined(image, track, pose, label_size_mm)
-            except PoseRejectedError as error:
-                rejection = error
-                continue
-            if found is None or fit.rms_px < found.rms_px:
-                found = fit
-            if found.rms_px < UNDOUBTED_RMS_PX:
-                break
-        if found is None:
-            raise rejection
+        starts = start_poses(self._camera, code.corners_px, label_size_mm)
+        if not starts:
+            raise FitFailedError("The corners are not those of a square before the camera.")
+        poses = [start.T_camera_label for start in starts]
+        agreement = bit_agreement(image, self._camera, code.modules, poses[0], label_size_mm)
+        track = _Track(code.payload, code.modules, inverted=agreement < _INVERTED_AGREEMENT)
+        edges = code_edges(code.modules, label_size_mm)
+        fit = fit_best(image, self._camera, edges, poses, inverted=track.inverted)
+        found = self._passed(fit, image, track, label_size_mm)
         self._track = track
         return found
 
@@ -194,7 +184,7 @@ class Locator:
         check_label_size(label_size_mm)
         return corner_pose(self._camera, code, label_size_mm)
 
-    def _tracked(
+    def _followed(
         self, image: Image, label_size_mm: float, expected_payload: str | None, predicted: Pose
     ) -> LabelPose | None:
         """Refine a prediction with the modules of the last code; None if that does not fit."""
@@ -209,25 +199,19 @@ class Locator:
             if code is None or code.mirrored:
                 return None
             track.modules, track.fits, track.reads = code.modules, 0, track.reads + 1
+        edges = code_edges(track.modules, label_size_mm)
+        fit = fit_edges(image, self._camera, edges, predicted, inverted=track.inverted)
+        if fit is None:
+            return None
         try:
-            found = self._refined(image, track, predicted, label_size_mm)
+            found = self._passed(fit, image, track, label_size_mm)
         except PoseRejectedError:
             return None
         track.fits += 1
         return found
 
-    def _refined(
-        self, image: Image, track: _Track, start: Pose, label_size_mm: float
-    ) -> LabelPose:
-        """Fit from a start pose.
-
-        Raises:
-            PoseRejectedError: the fit does not settle or fails a gate.
-        """
-        edges = code_edges(track.modules, label_size_mm)
-        fit = fit_edges(image, self._camera, edges, start, inverted=track.inverted)
-        if fit is None:
-            raise FitFailedError("Too few edges are visible, or the fit does not settle.")
+    def _passed(self, fit: EdgeFit, image: Image, track: _Track, label_size_mm: float) -> LabelPose:
+        """The pose of a fit that passes all gates; otherwise the error of the first it fails."""
         self._gates.check_pose(fit.T_camera_label, self._camera, label_size_mm)
         self._gates.check_fit(fit, image, self._camera, track.modules, label_size_mm)
         return LabelPose(

@@ -58,7 +58,12 @@ def _by_pose(lever: Array, gradient: Array) -> Array:
     """
     x, y, z = lever.T
     a, b, c = gradient.T
-    return np.column_stack((y * c - z * b, z * a - x * c, x * b - y * a, a, b, c))
+    derivative = np.empty((6, len(lever)))  # long rows are quicker than long columns
+    derivative[0] = y * c - z * b
+    derivative[1] = z * a - x * c
+    derivative[2] = x * b - y * a
+    derivative[3:] = gradient.T
+    return derivative.T
 
 
 def project(camera: CameraModel, T_camera_label: Array, points_mm: Array) -> Projection:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -35,14 +37,23 @@ def bit_agreement(
         0 to 1.
     """
     count = modules.shape[0]
-    module_mm = label_size_mm / count
-    # One row of the quiet zone all around joins in, so that border modules have surroundings.
-    middles = (np.arange(-1, count + 1) + 0.5) * module_mm - label_size_mm / 2
-    x, y = np.meshgrid(middles, middles)
-    pixels = project(camera, T_camera_label, np.column_stack((x.ravel(), y.ravel()))).pixels
+    pixels = project(camera, T_camera_label, _middles(count) * label_size_mm).pixels
     map_x, map_y = pixels.T.astype(np.float32).reshape(2, count + 2, count + 2)
     grey = cv2.remap(image, map_x, map_y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     window = np.ones((_NEIGHBOURHOOD_MODULES, _NEIGHBOURHOOD_MODULES), dtype=np.uint8)
     middle = (cv2.erode(grey, window).astype(np.float32) + cv2.dilate(grey, window)) / 2
     black = np.asarray(grey < middle)[1:-1, 1:-1]
     return float(np.mean(black == modules))
+
+
+@lru_cache(maxsize=8)
+def _middles(count: int) -> Array:
+    """Middles of all modules of a code of side 1, row by row, shape ((count + 2)^2, 2).
+
+    One row of the quiet zone all around joins in, so that border modules have surroundings.
+    """
+    middles = (np.arange(-1, count + 1) + 0.5) / count - 0.5
+    x, y = np.meshgrid(middles, middles)
+    places = np.column_stack((x.ravel(), y.ravel()))
+    places.flags.writeable = False  # it is shared through the cache
+    return places

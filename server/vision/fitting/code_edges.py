@@ -39,18 +39,25 @@ class CodeEdges:
     module_mm: float
     length_mm: float
 
-    def thinned(self, most: int) -> CodeEdges:
-        """At most so many of the edges, spread evenly over both directions and the whole code."""
-        count = len(self.points_mm)
-        if count <= most:
-            return self
-        kept = np.linspace(0, count - 1, most).round().astype(np.intp)
-        return replace(
-            self,
-            points_mm=self.points_mm[kept],
-            normals=self.normals[kept],
-            tangents=self.tangents[kept],
-        )
+    @property
+    def upright(self) -> NDArray[np.bool_]:
+        """Which edges run along the label's y axis, shape (n,)."""
+        return np.asarray(self.normals[:, 0] != 0)
+
+
+@lru_cache(maxsize=16)
+def thinned(edges: CodeEdges, most: int) -> CodeEdges:
+    """At most so many of the edges, spread evenly over both directions and the whole code."""
+    count = len(edges.points_mm)
+    if count <= most:
+        return edges
+    kept = np.linspace(0, count - 1, most).round().astype(np.intp)
+    return replace(
+        edges,
+        points_mm=edges.points_mm[kept],
+        normals=edges.normals[kept],
+        tangents=edges.tangents[kept],
+    )
 
 
 def code_edges(modules: NDArray[np.bool_], label_size_mm: float) -> CodeEdges:
@@ -85,7 +92,7 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     along = (np.arange(pieces) - (pieces - 1) / 2) * length_mm
     points = (points[:, None, :] + tangents[:, None, :] * along[:, None]).reshape(-1, 2)
     normals, tangents = normals.repeat(pieces, axis=0), tangents.repeat(pieces, axis=0)
-    return CodeEdges(points, normals, tangents, module_mm, length_mm).thinned(MOST_EDGES)
+    return thinned(CodeEdges(points, normals, tangents, module_mm, length_mm), MOST_EDGES)
 
 
 def _sides(modules: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import cv2
@@ -10,12 +11,14 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.median import median
 from server.vision.projection import Array, project
 
 REACH_MODULES = 0.5
 """Profiles reach this far to both sides: beyond it the next edge begins to count."""
 
 MOST_REACH_PX = 12.0
+_LEAST_GAIN, _MOST_GAIN = 0.05, 1.5
 _LINES = np.array((-1 / 3, 0.0, 1 / 3), dtype=np.float32)  # side by side, of an edge's length
 
 
@@ -36,6 +39,8 @@ class EdgeOffsets(NamedTuple):
         by_pose: Derivative of the predicted place along the normal by (omega, tau), shape (n, 6).
         contrast: Grey step from black to white, negative where the picture contradicts, (n,).
         visible: Whole profile inside the picture, shape (n,).
+        gain: Derivative of the offset by a shift of the edge: 1 where the profile holds all of
+            the edge, less where blur or motion carry it beyond the ends, shape (n,).
         variance_px2: Second central moment of the gradient: the edge's blur squared, shape (n,).
         black: Grey value at the black end of the profile, shape (n,).
         white: The same at the white end.
@@ -45,6 +50,7 @@ class EdgeOffsets(NamedTuple):
     by_pose: Array
     contrast: Array
     visible: NDArray[np.bool_]
+    gain: Array
     variance_px2: Array
     black: Array
     white: Array
@@ -55,7 +61,7 @@ class EdgeOffsets(NamedTuple):
         usable = self.visible & (self.contrast > 0)
         if not np.any(usable):
             return 0.0
-        return float(np.sqrt(max(np.median(self.variance_px2[usable]), 0.0)))
+        return math.sqrt(max(median(self.variance_px2[usable]), 0.0))
 
 
 def edge_offsets(
@@ -121,7 +127,24 @@ def edge_offsets(
     offset[~visible | (contrast <= 0)] = 0.0
     variance = moments[:, 1] / safe * reach**2 - centroid**2
     by_pose = seen.by_pose_along(normal)
-    return EdgeOffsets(offset, by_pose, contrast, visible, variance, black, white)
+    gain = _gain(gradient, moments[:, 0] / safe, safe, half_steps)
+    return EdgeOffsets(offset, by_pose, contrast, visible, gain, variance, black, white)
+
+
+def _gain(
+    gradient: NDArray[np.float32],
+    centroid: NDArray[np.float64],
+    contrast: NDArray[np.float64],
+    half_steps: int,
+) -> Array:
+    """How much of a shift of the grey values the centroid follows, shape (n,).
+
+    With the gradient g on -1..1, c = int s g ds / int g ds; shifting g by d changes c by
+    dc/dd = 1 - (g(1) + g(-1) - c (g(1) - g(-1))) / int g ds.
+    """
+    first, last = gradient[:, 0], gradient[:, -1]
+    loss = half_steps * (first + last - centroid * (last - first))
+    return np.clip(1 - loss / contrast, _LEAST_GAIN, _MOST_GAIN)
 
 
 def _levelled(

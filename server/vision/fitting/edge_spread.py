@@ -8,6 +8,8 @@ apart, and why the shift may have several unknowns of its own.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from server.vision.fitting.code_edges import CodeEdges
@@ -17,6 +19,7 @@ EDGES_FOR_SLOPE, EDGES_FOR_BOW = 120, 300
 """With fewer edges the additional unknowns would cost more than they give."""
 
 
+@lru_cache(maxsize=8)
 def spread_basis(edges: CodeEdges) -> Array:
     """Derivative of each edge's shift by the unknowns: 1; x, y; x^2, xy, y^2, shape (n, s).
 
@@ -28,4 +31,6 @@ def spread_basis(edges: CodeEdges) -> Array:
         columns += [x, y]
     if len(x) >= EDGES_FOR_BOW:
         columns += [x * x, x * y, y * y]
-    return np.column_stack(columns)
+    basis = np.column_stack(columns)
+    basis.flags.writeable = False  # it is shared through the cache
+    return basis

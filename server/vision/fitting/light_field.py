@@ -13,6 +13,7 @@ import numpy as np
 
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_profiles import EdgeOffsets, ProfileLevels
+from server.vision.fitting.median import median
 from server.vision.projection import Array
 
 _LEAST_EDGES = 40
@@ -74,9 +75,9 @@ def _surface(basis: Array, values: Array) -> Array:
     """Least squares, repeated without what lies far off."""
     kept = np.ones(len(values), dtype=np.bool_)
     for _ in range(2):
-        coefficients = np.linalg.lstsq(basis[kept], values[kept])[0]
+        coefficients = np.linalg.solve(basis[kept].T @ basis[kept], basis[kept].T @ values[kept])
         misses = np.abs(values - basis @ coefficients)
-        limit = _OUTLIER_MADS * max(float(np.median(misses)), 1.0)
+        limit = _OUTLIER_MADS * max(median(misses), 1.0)
         if np.count_nonzero(misses < limit) < _LEAST_EDGES // 2:
             break
         kept = misses < limit
