@@ -148,6 +148,7 @@ def _devices(settings: Settings) -> Devices:
         station=settings.station.driver,
         port=settings.robot.port,
         board=settings.robot.board,
+        cameras=settings.camera.link,
         geometry=settings.geometry,
         limits=settings.motion,
         mount=settings.camera.mount,
