@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
@@ -22,4 +23,7 @@ class CameraSettings(Section):
     )
     link: CameraLinks = CameraLinks()
     optics: CameraModel = Field(default_factory=pi_camera_v2)
+    calibration: Path | None = Field(
+        None, description="File of `plugpilot calibrate camera`; it replaces optics"
+    )
     mount: CameraMount = CameraMount()
