@@ -34,7 +34,7 @@ def board_picture(
     )  # fmt: skip
     picture = cv2.GaussianBlur(sharp.astype(np.float64), (0, 0), 0.8)
     noise = np.random.default_rng(seed).normal(0.0, 2.0, picture.shape)
-    return np.clip(0.85 * picture + 12 + noise, 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(0.85 * picture + 12 + noise, 0, 255), dtype=np.uint8)
 
 
 @lru_cache(maxsize=4)
