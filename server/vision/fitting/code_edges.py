@@ -31,6 +31,7 @@ class CodeEdges:
         tangents: Unit vectors along the edge, a quarter turn from the normals, shape (n, 2).
         module_mm: Side of one module.
         length_mm: Length of each edge.
+        side: Number of the module side that each edge is a piece of, shape (n,).
     """
 
     points_mm: NDArray[np.float64]
@@ -38,6 +39,7 @@ class CodeEdges:
     tangents: NDArray[np.float64]
     module_mm: float
     length_mm: float
+    side: NDArray[np.intp]
 
     @property
     def upright(self) -> NDArray[np.bool_]:
@@ -57,6 +59,7 @@ def thinned(edges: CodeEdges, most: int) -> CodeEdges:
         points_mm=edges.points_mm[kept],
         normals=edges.normals[kept],
         tangents=edges.tangents[kept],
+        side=edges.side[kept],
     )
 
 
@@ -92,7 +95,9 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     along = (np.arange(pieces) - (pieces - 1) / 2) * length_mm
     points = (points[:, None, :] + tangents[:, None, :] * along[:, None]).reshape(-1, 2)
     normals, tangents = normals.repeat(pieces, axis=0), tangents.repeat(pieces, axis=0)
-    return thinned(CodeEdges(points, normals, tangents, module_mm, length_mm), MOST_EDGES)
+    side = np.arange(len(points)) // pieces
+    edges = CodeEdges(points, normals, tangents, module_mm, length_mm, side)
+    return thinned(edges, MOST_EDGES)
 
 
 def _sides(modules: NDArray[np.bool_]) -> NDArray[np.float64]:

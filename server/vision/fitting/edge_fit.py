@@ -18,6 +18,8 @@ from server.vision.fitting.robust_step import RobustStep, robust_step
 
 COARSE_EDGES = 200
 """So many edges lead from the start to the neighbourhood of the fit; then all of them count."""
+COARSE_REACH_PX = 40.0
+"""The start may be off by half a module; those of a tag nearby are large."""
 MOST_COARSE_STEPS = 5
 MOST_FINE_STEPS = 8
 PATIENCE = 5
@@ -117,9 +119,17 @@ def approach(
     pose, spread_px = T_start, 0.0
     alike = np.ones((len(few.points_mm), 1))
     for _ in range(MOST_COARSE_STEPS):
-        measured = edge_offsets(image, camera, few, pose, inverted=inverted, spread_px=spread_px)
+        measured = edge_offsets(
+            image,
+            camera,
+            few,
+            pose,
+            inverted=inverted,
+            spread_px=spread_px,
+            reach_px=COARSE_REACH_PX,
+        )
         solved = robust_step(measured, spread_px * alike[:, 0], alike, few.upright)
-        if solved is None or not solved.moved_px < MOST_REACH_PX:
+        if solved is None or not solved.moved_px < COARSE_REACH_PX:
             return None
         pose, spread_px = perturbed(pose, solved.step[:6]), spread_px + float(solved.step[6])
         if pose[2, 3] <= 0:
@@ -173,7 +183,7 @@ def _result(solved: RobustStep, pose: Array, spread_px: float, edges: CodeEdges)
     edge_count = len(edges.points_mm)
     return EdgeFit(
         T_camera_label=pose,
-        covariance=fit_covariance(solved, float(pose[2, 3])),
+        covariance=fit_covariance(solved, edges, float(pose[2, 3])),
         rms_px=solved.rms_px,
         inlier_share=float(np.sum(solved.weights > 0.1)) / edge_count,
         edge_count=edge_count,

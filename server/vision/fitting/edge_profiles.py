@@ -18,6 +18,7 @@ REACH_MODULES = 0.5
 """Profiles reach this far to both sides: beyond it the next edge begins to count."""
 
 MOST_REACH_PX = 12.0
+_MOST_HALF_STEPS = 16
 _LEAST_GAIN, _MOST_GAIN = 0.05, 1.5
 _LINES = np.array((-1 / 3, 0.0, 1 / 3), dtype=np.float32)  # side by side, of an edge's length
 
@@ -102,7 +103,7 @@ def edge_offsets(
     reach = np.clip(half_module - np.abs(spread_px), 1.0, reach_px)
     longest = float(np.max(reach, initial=2.0))
     # Steps of a pixel, but of half a pixel across the short profiles of sharp edges.
-    half_steps = int(np.ceil(max(longest, min(2 * longest, 6.0))))
+    half_steps = min(int(np.ceil(max(longest, min(2 * longest, 6.0)))), _MOST_HALF_STEPS)
     steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
     middle = seen.pixels + normal * np.reshape(spread_px, (-1, 1))
     forward = normal * reach[:, None]
