@@ -34,11 +34,11 @@ SIGNATURE_CHARACTERS = 8
 
 _VEHICLE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 _TEXT = re.compile(
-    rf"PP(?P<version>[0-9]+):(?P<vehicle>{_VEHICLE.pattern}):"
+    rf"PP{VERSION}:(?P<vehicle>{_VEHICLE.pattern}):"
     rf"(?P<check>[A-Z2-7]{{{CHECK_CHARACTERS}}})(?P<signature>[A-Z2-7]{{{SIGNATURE_CHARACTERS}}})"
 )
 _FIRST_VERSION = re.compile(r"PLUGPILOT:1:.+")
-_OTHER_VERSION = re.compile(r"PP([0-9]+):.*")
+_ANY_VERSION = re.compile(r"PP([0-9]{1,4}):.*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +67,38 @@ def label_text(vehicle_id: str, key: LabelKey) -> str:
     return body + _check(body) + _signature(body, key)
 
 
+@dataclass(frozen=True, slots=True)
+class LabelText:
+    """What a label says, whoever made it.
+
+    Attributes:
+        version: Of the format.
+        vehicle: The id in it; "" in other formats.
+        intact: The check value fits.
+        signature: As it stands there.
+    """
+
+    version: int
+    vehicle: str = ""
+    intact: bool = False
+    signature: str = ""
+
+
+def parse_label_text(text: str) -> LabelText | None:
+    """Take a label apart; None when it is no label of ours at all."""
+    if _FIRST_VERSION.fullmatch(text):
+        return LabelText(version=1)
+    any_version = _ANY_VERSION.fullmatch(text)
+    if any_version is None:
+        return None
+    version = int(any_version[1])
+    match = _TEXT.fullmatch(text)
+    if version != VERSION or match is None:
+        return LabelText(version)
+    intact = match["check"] == _check(text[: match.start("check")])
+    return LabelText(version, match["vehicle"], intact, match["signature"])
+
+
 def read_label_text(text: str, key: LabelKey) -> str:
     """The vehicle that a label belongs to.
 
@@ -76,24 +108,18 @@ def read_label_text(text: str, key: LabelKey) -> str:
         DamagedTextError: its check value does not fit.
         ForeignLabelError: it was signed with another key.
     """
-    if _FIRST_VERSION.fullmatch(text):
-        raise OldLabelError("This label is of the first format, which nobody has signed.")
-    match = _TEXT.fullmatch(text)
-    other = _OTHER_VERSION.fullmatch(text)
-    if other is not None and int(other[1]) != VERSION:
-        raise OldLabelError(
-            f"This label has format {other[1]}; this version of PlugPilot reads {VERSION}."
-        )
-    if match is None and other is None:
+    label = parse_label_text(text)
+    if label is None:
         raise ForeignTextError(f"The code says {text[:40]!r}.")
-    if match is None:
-        raise DamagedTextError(f"The text {text[:80]!r} is not complete.")
-    body = text[: match.start("check")]
-    if match["check"] != _check(body):
-        raise DamagedTextError(f"The check value of {text!r} does not fit.")
-    if not hmac.compare_digest(match["signature"], _signature(body, key)):
-        raise ForeignLabelError(f"The label of {match['vehicle']} was signed with another key.")
-    return match["vehicle"]
+    if label.version != VERSION:
+        raise OldLabelError(
+            f"This label has format {label.version}; this version of PlugPilot reads {VERSION}."
+        )
+    if not label.intact:
+        raise DamagedTextError(f"The check value of {text[:80]!r} does not fit.")
+    if not hmac.compare_digest(text, label_text(label.vehicle, key)):
+        raise ForeignLabelError(f"The label of {label.vehicle} was signed with another key.")
+    return label.vehicle
 
 
 def _check(body: str) -> str:
