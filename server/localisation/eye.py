@@ -24,7 +24,6 @@ from server.vision import (
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 
-
 Refusal = VisionError | ImplausiblePlaceError
 _DOUBTS = (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError)
 """The label was read, but its pose does not deserve trust."""

@@ -77,7 +77,7 @@ class LabelSizeCheck:
         look = _Look(
             camera_mm=T_base_camera[:3, 3].copy(),
             to_label_mm=rotation @ sighting.T_camera_label[:3, 3],
-            information=np.linalg.inv(covariance),
+            information=np.asarray(np.linalg.inv(covariance), dtype=np.float64),
         )
         # The first look stays: from there it is farthest to where the robot goes.
         if len(self._looks) == MOST_LOOKS:

@@ -33,7 +33,7 @@ class Gates:
         rms_px: ... or in pixels, whichever is more: small codes are drawn by few pixels.
         bow_modules: The same for the largest mean distance in any part of the code, which tells a
             bent or pasted-over label from a noisy picture, in modules ...
-        bow_px: ... or in pixels.
+        bow_rms: ... or times the root mean square: noise makes some part look bent, too.
         inlier_share: Smallest share of edges that agree.
         bit_agreement: Smallest share of modules that look as the code says.
         nearest_mm: Smallest distance along the optical axis.
@@ -50,7 +50,7 @@ class Gates:
     rms_modules: float = 0.06
     rms_px: float = 0.35
     bow_modules: float = 0.06
-    bow_px: float = 0.35
+    bow_rms: float = 1.5
     inlier_share: float = 0.82
     bit_agreement: float = 0.85
     nearest_mm: float = 40.0
@@ -115,7 +115,7 @@ class Gates:
         if not fit.rms_px <= most_px:
             detail = f"The edges are {fit.rms_px:.2f} px off; at most {most_px:.2f} px are allowed."
             raise EdgesDoNotFitError(detail, rms_px=round(fit.rms_px, 3))
-        most_bow_px = max(self.bow_px, self.bow_modules * module_px)
+        most_bow_px = max(self.bow_rms * fit.rms_px, self.bow_modules * module_px)
         if not fit.bow_px <= most_bow_px:
             detail = (
                 f"A part of the code is {fit.bow_px:.2f} px beside where a flat label has it; "

@@ -87,9 +87,9 @@ def _background(width: int, height: int, number: int) -> Canvas:
         corners = rng.uniform(0, 1, (1, 2)) + rng.uniform(-0.12, 0.12, (4, 2))
         polygon = (corners * (width, height)).round().astype(np.int32)
         cv2.fillConvexPoly(canvas, cv2.convexHull(polygon), float(rng.uniform(0.05, 0.8)))
-    canvas = np.asarray(cv2.GaussianBlur(canvas, (0, 0), 1.2), dtype=np.float32)
-    canvas.flags.writeable = False
-    return canvas
+    background = np.asarray(cv2.GaussianBlur(canvas, (0, 0), 1.2), dtype=np.float32)
+    background.flags.writeable = False
+    return background
 
 
 def _draw(canvas: Canvas, camera: CameraModel, item: Placed, shot: Shot) -> None:
@@ -132,7 +132,7 @@ def _hits(rays: NDArray[np.float32], item: Placed) -> tuple[Canvas, Canvas]:
     """Label coordinates x, y [mm] where rays meet the paper, bent where a corner is loose."""
     pose = item.T_camera_label
     to_plane = np.linalg.inv(pose[:3, (0, 1, 3)])
-    flat = cv2.perspectiveTransform(rays, to_plane)
+    flat = np.asarray(cv2.perspectiveTransform(rays, to_plane), dtype=np.float32)
     x, y = flat[..., 0], flat[..., 1]
     if not item.lift_mm:
         return x, y

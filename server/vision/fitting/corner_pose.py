@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from drivers.camera import CameraModel
-from server.vision.markers.code import Code
 from server.vision.errors import FitFailedError, MirroredCodeError
-from server.vision.label_pose import LabelPose, PoseSource
-from server.vision.projection import project
 from server.vision.fitting.start_pose import corners_mm, start_poses
+from server.vision.label_pose import LabelPose, PoseSource
+from server.vision.markers.code import Code
+from server.vision.projection import project
 
 CORNER_SIGMA_PX = 1.0
 """Corners are read in whole pixels; measured about 1 px off at close range."""

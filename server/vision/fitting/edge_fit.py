@@ -13,8 +13,8 @@ from server.vision.fitting.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge
 from server.vision.fitting.edge_spread import spread_basis
 from server.vision.fitting.fit_covariance import fit_covariance
 from server.vision.fitting.light_field import light_field
-from server.vision.projection import Array, perturbed
 from server.vision.fitting.robust_step import RobustStep, robust_step
+from server.vision.projection import Array, perturbed
 
 COARSE_EDGES = 200
 """So many edges lead from the start to the neighbourhood of the fit; then all of them count."""
@@ -118,6 +118,7 @@ def approach(
     few = thinned(edges, COARSE_EDGES)
     pose, spread_px = T_start, 0.0
     alike = np.ones((len(few.points_mm), 1))
+    near: Approach | None = None
     for _ in range(MOST_COARSE_STEPS):
         measured = edge_offsets(
             image,
@@ -134,9 +135,10 @@ def approach(
         pose, spread_px = perturbed(pose, solved.step[:6]), spread_px + float(solved.step[6])
         if pose[2, 3] <= 0:
             return None
+        near = Approach(pose, solved.rms_px, spread_px, few, measured)
         if solved.moved_px < _NEAR_PX:
             break
-    return Approach(pose, solved.rms_px, spread_px, few, measured)
+    return near
 
 
 def finish(
@@ -180,6 +182,7 @@ def finish(
 
 
 def _result(solved: RobustStep, pose: Array, spread_px: float, edges: CodeEdges) -> EdgeFit:
+    """Pose, covariance and what the gates want to know of the last step."""
     edge_count = len(edges.points_mm)
     return EdgeFit(
         T_camera_label=pose,

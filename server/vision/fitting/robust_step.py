@@ -86,7 +86,7 @@ def robust_step(
     for number in range(_REWEIGHTINGS + 1):
         weighted = columns * (weights / scale_px**2)
         try:
-            step = np.linalg.solve(weighted @ design, weighted @ offsets)
+            step: Array = np.linalg.solve(weighted @ design, weighted @ offsets).astype(np.float64)
         except np.linalg.LinAlgError:
             return None
         residuals = offsets - design @ step

@@ -38,7 +38,7 @@ def tag_modules(payload: str) -> NDArray[np.bool_]:
         raise ValueError(message)
     side = dictionary.markerSize + 2
     picture = dictionary.generateImageMarker(int(match[1]), side)
-    modules = np.asarray(picture) == 0
+    modules: NDArray[np.bool_] = np.asarray(picture) == 0
     modules.flags.writeable = False  # it is shared through the cache
     return modules
 
@@ -56,11 +56,10 @@ class AprilTags:
         """Tags in a picture, largest first."""
         del wanted  # there is only one way to look
         corners, numbers, _ = self._detector.detectMarkers(image)
-        if numbers is None:
-            return []
+        # Without a tag the numbers are None in some versions of OpenCV, and empty in others.
         found = [
-            _code(int(number), quad)
-            for number, quad in zip(np.ravel(numbers), corners, strict=True)
+            _code(int(number), np.asarray(quad, dtype=np.float64))
+            for number, quad in zip(np.ravel(numbers if corners else ()), corners, strict=True)
         ]
         return sorted(found, key=lambda code: -code.area_px)
 
@@ -75,10 +74,10 @@ class AprilTags:
         return None
 
 
-def _code(number: int, quad: NDArray[np.float32]) -> Code:
+def _code(number: int, quad: NDArray[np.float64]) -> Code:
     """Corners are the centres of the outermost black pixels: half a pixel inside the edge."""
     payload = f"{FAMILY}:{number}"
-    corners = quad.reshape(4, 2).astype(np.float64)
+    corners = quad.reshape(4, 2)
     outwards = corners - corners.mean(axis=0)
     outwards /= np.maximum(np.abs(outwards), 1e-9)
     return Code(payload, corners + 0.5 * outwards, tag_modules(payload))

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from numpy.typing import NDArray
-
 import numpy as np
+from numpy.typing import NDArray
 
 from server.vision.markers.code import Code, Image
 

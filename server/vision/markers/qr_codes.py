@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from server.vision.markers.code import Code, Image
-from server.vision.markers.qr_reading import find_codes, read_window
 from server.vision.markers.qr_modules import exact_modules
+from server.vision.markers.qr_reading import find_codes, read_window
 from server.vision.markers.window import window_around
 
 

@@ -56,4 +56,5 @@ def _wrong_bits(modules: NDArray[np.bool_]) -> NDArray[np.int_]:
         (modules[:6, 8], modules[7:9, 8], modules[8, 7:8], modules[8, 5::-1]),
     )
     second = np.concatenate((modules[8, : size - 9 : -1], modules[size - 7 :, 8]))
-    return np.sum(first != _WORDS, axis=1) + np.sum(second != _WORDS, axis=1)
+    wrong = np.sum(first != _WORDS, axis=1) + np.sum(second != _WORDS, axis=1)
+    return np.asarray(wrong, dtype=np.int_)

@@ -22,6 +22,7 @@ from server.vision import Locator, VisionError
 from server.vision.projection import Array, perturbed, rotation_vector
 from tests.bench.vision import scenes
 from tests.bench.vision.scenes import PAYLOAD, Scene, plain_scene
+from tests.support.label_pictures import Image
 from tests.support.label_prints import mirrored, printed
 
 LATERAL_MM, DEPTH_SHARE, TILT_DEG = 0.5, 0.01, 2.0
@@ -124,7 +125,7 @@ def run(frames: int, first: int) -> bool:
         if number // len(names) % 2:
             spread = np.array([0.05, 0.05, 0.03, 3.0, 3.0, 8.0]) * rng.choice((0.1, 1.0))
             predicted = perturbed(scene.pose, rng.normal(0, spread))
-        end, fault = _judge(locator, scene, kind, image, size_mm, predicted)
+        end, fault = _judge(locator, scene, kind, image, size_mm=size_mm, predicted=predicted)
         ends[name][end] += 1
         if fault is not None:
             wrong += 1
@@ -138,7 +139,8 @@ def _judge(
     locator: Locator,
     scene: Scene,
     kind: Kind,
-    image: scenes.Image,
+    image: Image,
+    *,
     size_mm: float,
     predicted: Array | None,
 ) -> tuple[str, str | None]:
@@ -153,9 +155,9 @@ def _judge(
         return "located", "there was nothing to locate"
     true = scene.pose.copy()
     true[:3, 3] *= size_mm / scene.label.size_mm  # a smaller print looks farther away
-    error = found.T_camera_label[:3, 3] - true[:3, 3]
+    shift = found.T_camera_label[:3, 3] - true[:3, 3]
     turn = rotation_vector(found.T_camera_label[:3, :3] @ true[:3, :3].T)
-    lateral, depth = float(np.hypot(error[0], error[1])), abs(float(error[2]))
+    lateral, depth = float(np.hypot(shift[0], shift[1])), abs(float(shift[2]))
     tilt = math.degrees(float(np.linalg.norm(turn)))
     if lateral > LATERAL_MM or depth > DEPTH_SHARE * true[2, 3] or tilt > TILT_DEG:
         return "located", f"off by {lateral:.2f} mm sideways, {depth:.2f} mm deep, {tilt:.2f} deg"

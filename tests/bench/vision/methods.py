@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from typing import Any
 
@@ -100,10 +101,10 @@ def compared(camera: CameraModel) -> dict[str, Method]:
 def tag_library(camera: CameraModel) -> Method | None:
     """The reference implementation of AprilTag, if its Python package is installed."""
     try:
-        from apriltag import apriltag  # noqa: PLC0415 - not a requirement of the project
+        library = importlib.import_module("apriltag")  # not a requirement of the project
     except ImportError:
         return None
-    detector = apriltag("tag36h11")
+    detector = library.apriltag("tag36h11")
 
     def read(image: Image, size_mm: float) -> Array | None:
         for found in detector.detect(image):

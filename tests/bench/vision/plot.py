@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -56,7 +57,7 @@ def error_plot(title: str, methods: Mapping[str, Points]) -> str:
             f'<circle cx="{x:.1f}" cy="{y:.1f}" r="1.6"/>' for x, y in (place(*p) for p in points)
         )
         curve = []
-        for begin, end in zip(edges, edges[1:], strict=False):
+        for begin, end in itertools.pairwise(edges):
             inside = [error for distance, error in points if begin <= distance < end]
             if inside:
                 curve.append(place((begin + end) / 2, float(np.median(inside))))

@@ -190,11 +190,11 @@ def misprinted(scene: Scene, rng: np.random.Generator) -> Scene:
 
 def accompanied(scene: Scene, rng: np.random.Generator) -> Scene:
     """Another label and an advertisement hang beside it, one of them larger."""
-    others = []
+    others: list[Placed] = []
     for text in ("PLUGPILOT:1:OTHER", "https://example.org/parking?lot=17"):
         size = float(rng.uniform(0.5, 1.2)) * scene.label.size_mm
         pose = scene.pose.copy()
-        side = 1.0 if len(others) else -1.0
+        side = 1.0 if others else -1.0
         reach = 0.72 * (scene.label.side_mm + size * 1.4)
         pose[:3, 3] += pose[:3, 0] * side * reach
         others.append(Placed(printed(own_modules(text), size), pose))
@@ -206,5 +206,3 @@ def overpasted(scene: Scene, rng: np.random.Generator) -> Scene:
     other = printed(own_modules("PLUGPILOT:1:7F3K22Q8"), scene.label.size_mm)
     share = float(rng.uniform(0.1, 0.5))
     return replace(scene, label=pasted_over(scene.label, other, rng, share))
-
-

@@ -43,7 +43,7 @@ def document(rows: Iterable[str], frames: int) -> str:
     """The whole page."""
     about = (
         f"{frames} frames per set, 1280 x 720, one thread; times are processor time. Errors are "
-        "median / 95th percentile / worst of the poses found. \"In 95%\" is the share of true "
+        'median / 95th percentile / worst of the poses found. "In 95%" is the share of true '
         "errors inside the stated 95% ellipsoid of all six numbers."
     )
     return "\n".join(("# Locating the label", "", about, "", HEAD, *rows, ""))

@@ -20,10 +20,10 @@ from server.vision.errors import (
     PoseRejectedError,
     WrongPayloadError,
 )
+from server.vision.fitting.start_pose import StartPose, start_poses
 from server.vision.markers.code import Code, Image
 from server.vision.markers.qr_codes import QrCodes
 from server.vision.projection import Array, perturbed
-from server.vision.fitting.start_pose import StartPose, start_poses
 from tests.server.vision.pictures import (
     OPTICS,
     PAYLOAD,
