@@ -39,6 +39,8 @@ class Gates:
         nearest_mm: Smallest distance along the optical axis.
         farthest_mm: Largest distance.
         tilt_deg: Largest angle between the label's normal and the line of sight.
+        tracked_turn_deg: A predicted pose that turns by more than this is not believed without
+            reading the code: it may have turned to the opposite tilt.
         jump_mm: Largest distance between the label and its prediction ...
         jump_deg: ... and largest turn against it.
         tracked_fits: A predicted pose saves the decoding at most so often in a row; then the
@@ -56,6 +58,7 @@ class Gates:
     nearest_mm: float = 40.0
     farthest_mm: float = 2000.0
     tilt_deg: float = 60.0
+    tracked_turn_deg: float = 3.0
     jump_mm: float = 25.0
     jump_deg: float = 10.0
     tracked_fits: int = 10
@@ -138,8 +141,13 @@ class Gates:
             LabelJumpedError: it is not.
         """
         jump_mm = float(np.linalg.norm(found[:3, 3] - predicted[:3, 3]))
-        turn = rotation_vector(found[:3, :3] @ predicted[:3, :3].T)
-        jump_deg = math.degrees(float(np.linalg.norm(turn)))
+        jump_deg = turn_deg(found, predicted)
         if not (jump_mm <= self.jump_mm and jump_deg <= self.jump_deg):
             detail = f"The label is {jump_mm:.1f} mm and {jump_deg:.1f} degrees from where it was."
             raise LabelJumpedError(detail, jump_mm=round(jump_mm, 2), jump_deg=round(jump_deg, 2))
+
+
+def turn_deg(one: Array, other: Array) -> float:
+    """Angle of the rotation from one pose to another, both shape (4, 4) [deg]."""
+    turn = rotation_vector(one[:3, :3] @ other[:3, :3].T)
+    return math.degrees(float(np.linalg.norm(turn)))

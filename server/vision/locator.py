@@ -21,7 +21,7 @@ from server.vision.fitting.corner_pose import corner_pose
 from server.vision.fitting.edge_fit import EdgeFit, fit_edges
 from server.vision.fitting.start_pose import corners_mm, start_poses
 from server.vision.fitting.two_poses import fit_best
-from server.vision.gates import Gates
+from server.vision.gates import Gates, turn_deg
 from server.vision.label_pose import LabelPose
 from server.vision.markers.code import Code
 from server.vision.markers.marker import Marker
@@ -202,6 +202,8 @@ class Locator:
         edges = code_edges(track.modules, label_size_mm)
         fit = fit_edges(image, self._camera, edges, predicted, inverted=track.inverted)
         if fit is None:
+            return None
+        if turn_deg(fit.T_camera_label, predicted) > self._gates.tracked_turn_deg:
             return None
         try:
             found = self._passed(fit, image, track, label_size_mm)

@@ -11,6 +11,7 @@ the camera frame, tau [mm] shifts it along the axes of the camera frame.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -19,6 +20,8 @@ from numpy.typing import NDArray
 from drivers.camera import CameraModel
 
 Array = NDArray[np.float64]
+
+_NEWTON_STEPS = 8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,26 +82,45 @@ def project(camera: CameraModel, T_camera_label: Array, points_mm: Array) -> Pro
     nearness = 1 / in_camera[:, 2]
     x, y = in_camera[:, 0] * nearness, in_camera[:, 1] * nearness
 
+    seen = _distorted(camera, x, y)
+    pixels = np.empty((len(x), 2))
+    pixels[:, 0] = camera.fx * seen.x + camera.cx
+    pixels[:, 1] = camera.fy * seen.y + camera.cy
+    rows = (
+        (camera.fx * seen.x_by_x, camera.fx * seen.mixed),
+        (camera.fy * seen.mixed, camera.fy * seen.y_by_y),
+    )
+    by_point = np.empty((len(x), 2, 3))
+    for row, (by_x, by_y) in enumerate(rows):
+        by_point[:, row, 0] = by_x * nearness
+        by_point[:, row, 1] = by_y * nearness
+        by_point[:, row, 2] = -(by_x * x + by_y * y) * nearness
+    return Projection(pixels, by_point, lever)
+
+
+class _Distorted(NamedTuple):
+    """Distorted coordinates and their derivatives; those across are equal: mixed."""
+
+    x: Array
+    y: Array
+    x_by_x: Array
+    mixed: Array
+    y_by_y: Array
+
+
+def _distorted(camera: CameraModel, x: Array, y: Array) -> _Distorted:
     r2 = x * x + y * y
     radial = 1 + r2 * (camera.k1 + r2 * (camera.k2 + r2 * camera.k3))
     slope = 2 * (camera.k1 + r2 * (2 * camera.k2 + r2 * 3 * camera.k3))  # d radial / d r2, times 2
     p1, p2 = camera.p1, camera.p2
     xy = x * y
-    pixels = np.empty((len(x), 2))
-    pixels[:, 0] = camera.fx * (x * radial + 2 * p1 * xy + p2 * (r2 + 2 * x * x)) + camera.cx
-    pixels[:, 1] = camera.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * xy) + camera.cy
-
-    mixed = xy * slope + 2 * (p1 * x + p2 * y)
-    by_x_y = (
-        (camera.fx * (radial + x * x * slope + 2 * p1 * y + 6 * p2 * x), camera.fx * mixed),
-        (camera.fy * mixed, camera.fy * (radial + y * y * slope + 6 * p1 * y + 2 * p2 * x)),
+    return _Distorted(
+        x=x * radial + 2 * p1 * xy + p2 * (r2 + 2 * x * x),
+        y=y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * xy,
+        x_by_x=radial + x * x * slope + 2 * p1 * y + 6 * p2 * x,
+        mixed=xy * slope + 2 * (p1 * x + p2 * y),
+        y_by_y=radial + y * y * slope + 6 * p1 * y + 2 * p2 * x,
     )
-    by_point = np.empty((len(x), 2, 3))
-    for row, (by_x, by_y) in enumerate(by_x_y):
-        by_point[:, row, 0] = by_x * nearness
-        by_point[:, row, 1] = by_y * nearness
-        by_point[:, row, 2] = -(by_x * x + by_y * y) * nearness
-    return Projection(pixels, by_point, lever)
 
 
 def undistort(camera: CameraModel, pixels: Array) -> Array:
@@ -111,10 +133,17 @@ def undistort(camera: CameraModel, pixels: Array) -> Array:
     Returns:
         Normalised x and y, shape (n, 2), exact to far below a thousandth of a pixel.
     """
-    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-12)
-    points = np.ascontiguousarray(pixels, dtype=np.float64).reshape(-1, 1, 2)
-    rays = cv2.undistortPoints(points, camera.matrix, camera.distortion, criteria=criteria)
-    return np.asarray(rays, dtype=np.float64).reshape(-1, 2)
+    # Newton's method. OpenCV's own takes its stopping rule in one way in version 4 and in
+    # another in version 5, and its default is not exact for strong distortion.
+    wanted = (pixels - (camera.cx, camera.cy)) / (camera.fx, camera.fy)
+    x, y = wanted[:, 0].copy(), wanted[:, 1].copy()
+    for _ in range(_NEWTON_STEPS):
+        seen = _distorted(camera, x, y)
+        off_x, off_y = seen.x - wanted[:, 0], seen.y - wanted[:, 1]
+        determinant = seen.x_by_x * seen.y_by_y - seen.mixed**2
+        x -= (seen.y_by_y * off_x - seen.mixed * off_y) / determinant
+        y -= (seen.x_by_x * off_y - seen.mixed * off_x) / determinant
+    return np.column_stack((x, y))
 
 
 def perturbed(T_camera_label: Array, delta: Array) -> Array:

@@ -72,8 +72,7 @@ def _rays(camera: CameraModel) -> NDArray[np.float32]:
     """Directions of all pixel centres, shape (height, width, 2)."""
     u, v = np.meshgrid(np.arange(camera.width, dtype=float), np.arange(camera.height, dtype=float))
     pixels = np.stack((u, v), axis=-1).reshape(-1, 1, 2)
-    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-12)
-    rays = cv2.undistortPoints(pixels, camera.matrix, camera.distortion, criteria=criteria)
+    rays = cv2.undistortPoints(pixels, camera.matrix, camera.distortion)
     return np.asarray(rays, dtype=np.float32).reshape(camera.height, camera.width, 2)
 
 

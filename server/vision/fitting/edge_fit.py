@@ -26,8 +26,8 @@ PATIENCE = 5
 """After so many fine steps a fit that still swings a little is good enough: perfectly sharp edges
 snap from pixel to pixel."""
 
-_NEAR_PX = 1.0
-_CONVERGED_PX = 0.02
+_NEAR_PX = 2.0
+_CONVERGED_PX = 0.05
 _SETTLED_PX = 0.1
 _PROFILE_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
@@ -111,7 +111,7 @@ def fit_edges(
 def approach(
     image: Image, camera: CameraModel, edges: CodeEdges, T_start: Array, *, inverted: bool = False
 ) -> Approach | None:
-    """Steps with few edges and long profiles, until the next would be shorter than a pixel.
+    """Steps with few edges and long profiles, until a step is short.
 
     Arguments as of ``fit_edges``. Returns None where that leads nowhere.
     """
