@@ -109,8 +109,8 @@ def tag_library(camera: CameraModel) -> Method | None:
     def read(image: Image, size_mm: float) -> Array | None:
         for found in detector.detect(image):
             if f"tag36h11:{found['id']}" == TAG:
-                # It calls the corner left below that OpenCV's dictionary has right below.
-                corners = np.roll(np.asarray(found["lb-rb-rt-lt"]), 2, axis=0) - 0.5
+                # Its corners run the other way round, and its tag stands on its head.
+                corners = np.roll(np.asarray(found["lb-rb-rt-lt"])[::-1], 2, axis=0) - 0.5
                 starts = start_poses(camera, corners, size_mm)
                 return starts[0].T_camera_label if starts else None
         return None

@@ -151,8 +151,7 @@ def test_a_tilt_that_could_be_the_opposite_is_rejected() -> None:
         image = shot_of(LABEL, far, shot=noisy, seed=seed)
         try:
             fit = fit_best(image, CAMERA, edges, [opposite, far])
-        except AmbiguousTiltError as refusal:
-            assert refusal.code == "tilt_ambiguous"
+        except AmbiguousTiltError:
             outcomes.append("ambiguous")
         except FitFailedError:
             outcomes.append("failed")
