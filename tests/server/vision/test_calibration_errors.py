@@ -23,7 +23,7 @@ def solved(camera: CameraModel, pixels: Array, points_mm: Array) -> Array:
     for _ in range(30):
         seen = project(camera, found, points_mm)
         step = np.linalg.lstsq(seen.by_pose.reshape(-1, 6), (pixels - seen.pixels).ravel())[0]
-        found = perturbed(found, step)
+        found = perturbed(found, step.astype(np.float64))
     return found
 
 
