@@ -141,6 +141,7 @@ class Eye:
                 label_size_mm=vehicle.label_size_mm,
                 expected_payload=vehicle.label_payload,
                 predicted=predicted,
+                moving=self._telemetry.require().board in MOVING,
             )
             require_plausible_place(self._geometry, T_base_camera @ sighting.T_camera_label)
         except (VisionError, ImplausiblePlaceError) as error:

@@ -93,6 +93,7 @@ class Locator:
         label_size_mm: float,
         expected_payload: str | None = None,
         predicted: Pose | None = None,
+        moving: bool = False,
     ) -> LabelPose:
         """Locate the label.
 
@@ -103,6 +104,8 @@ class Locator:
             predicted: T_camera_label where the label is expected. Within about half a module,
                 1% of the distance and 3 degrees it saves decoding; farther off the picture is
                 searched; farther than the gates' jump the pose is rejected.
+            moving: Label or camera moves: the shear of a sensor that reads row by row is taken
+                out, and the pose is that of the middle row. The tilt is less certain then.
 
         Raises:
             ValueError: the picture is not two-dimensional uint8.
@@ -117,10 +120,12 @@ class Locator:
         check_picture(image)
         check_resolution(image, self._camera)
         if predicted is None:
-            return self.fit(image, self.read(image, expected_payload), label_size_mm)
-        found = self._followed(image, label_size_mm, expected_payload, predicted)
+            code = self.read(image, expected_payload)
+            return self.fit(image, code, label_size_mm, moving=moving)
+        found = self._followed(image, label_size_mm, expected_payload, predicted, moving=moving)
         if found is None:
-            found = self.fit(image, self.read(image, expected_payload), label_size_mm)
+            code = self.read(image, expected_payload)
+            found = self.fit(image, code, label_size_mm, moving=moving)
         self._gates.check_jump(found.T_camera_label, predicted)
         return found
 
@@ -145,7 +150,9 @@ class Locator:
             raise AmbiguousLabelError(f"The label {wanted!r} is in the picture more than once.")
         return alike[0]
 
-    def fit(self, image: Image, code: Code, label_size_mm: float) -> LabelPose:
+    def fit(
+        self, image: Image, code: Code, label_size_mm: float, *, moving: bool = False
+    ) -> LabelPose:
         """Fit the pose of a code that was read in the same picture.
 
         The picture may have another resolution than the camera model; its pixels are then taken
@@ -167,7 +174,7 @@ class Locator:
         agreement = bit_agreement(image, self._camera, code.modules, poses[0], label_size_mm)
         track = _Track(code.payload, code.modules, inverted=agreement < _INVERTED_AGREEMENT)
         edges = code_edges(code.modules, label_size_mm)
-        fit = fit_best(image, self._camera, edges, poses, inverted=track.inverted)
+        fit = fit_best(image, self._camera, edges, poses, inverted=track.inverted, moving=moving)
         found = self._passed(fit, image, track, label_size_mm)
         self._track = track
         return found
@@ -185,7 +192,13 @@ class Locator:
         return corner_pose(self._camera, code, label_size_mm)
 
     def _followed(
-        self, image: Image, label_size_mm: float, expected_payload: str | None, predicted: Pose
+        self,
+        image: Image,
+        label_size_mm: float,
+        expected_payload: str | None,
+        predicted: Pose,
+        *,
+        moving: bool,
     ) -> LabelPose | None:
         """Refine a prediction with the modules of the last code; None if that does not fit."""
         track = self._track
@@ -200,7 +213,9 @@ class Locator:
                 return None
             track.modules, track.fits, track.reads = code.modules, 0, track.reads + 1
         edges = code_edges(track.modules, label_size_mm)
-        fit = fit_edges(image, self._camera, edges, predicted, inverted=track.inverted)
+        fit = fit_edges(
+            image, self._camera, edges, predicted, inverted=track.inverted, moving=moving
+        )
         if fit is None:
             return None
         if turn_deg(fit.T_camera_label, predicted) > self._gates.tracked_turn_deg:

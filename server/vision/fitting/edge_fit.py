@@ -88,6 +88,7 @@ def fit_edges(
     T_start: Array,
     *,
     inverted: bool = False,
+    moving: bool = False,
 ) -> EdgeFit | None:
     """Gauss-Newton over six pose numbers and the edge spread, with Tukey's weights.
 
@@ -100,12 +101,16 @@ def fit_edges(
         edges: Edges of the code.
         T_start: Start pose, within about half a module of the truth, shape (4, 4) [mm].
         inverted: The code is white on black.
+        moving: Label or camera moves while the sensor reads row by row, which shears the label:
+            its way per row is unknown, too, and the pose is that of the picture's middle row.
 
     Returns:
         The fit, or None where too few edges are visible or the fit does not settle.
     """
     near = approach(image, camera, edges, T_start, inverted=inverted)
-    return None if near is None else finish(image, camera, edges, near, inverted=inverted)
+    if near is None:
+        return None
+    return finish(image, camera, edges, near, inverted=inverted, moving=moving)
 
 
 def approach(
@@ -148,6 +153,7 @@ def finish(
     near: Approach,
     *,
     inverted: bool = False,
+    moving: bool = False,
 ) -> EdgeFit | None:
     """Steps with all edges, profiles as short as the blur allows, and the light taken out.
 
@@ -156,6 +162,7 @@ def finish(
     pose, basis = near.T_camera_label, spread_basis(edges)
     spread = np.zeros(basis.shape[1])
     spread[0] = near.spread_px
+    row_way = np.zeros(2)
     # Longer profiles than the blur only collect noise.
     reach_px = max(_PROFILE_WIDTHS * near.measured.width_px, _LEAST_REACH_PX)
     light = light_field(near.few, near.measured)
@@ -171,11 +178,16 @@ def finish(
             spread_px=spread_px,
             reach_px=reach_px,
             levels=levels,
+            row_way=row_way,
         )
-        solved = robust_step(measured, spread_px, basis, edges.upright)
+        others = np.column_stack((basis, measured.by_row_way)) if moving else basis
+        solved = robust_step(measured, spread_px, others, edges.upright)
         if solved is None or not solved.moved_px < MOST_REACH_PX:
             return None
-        pose, spread = perturbed(pose, solved.step[:6]), spread + solved.step[6:]
+        pose = perturbed(pose, solved.step[:6])
+        spread = spread + solved.step[6 : 6 + len(spread)]
+        if moving:
+            row_way = row_way + solved.step[-2:]
         if solved.moved_px < (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
             return _result(solved, pose, float(spread[0]), edges)
     return None

@@ -40,6 +40,7 @@ class EdgeOffsets(NamedTuple):
         by_pose: Derivative of the predicted place along the normal by (omega, tau), shape (n, 6).
         contrast: Grey step from black to white, negative where the picture contradicts, (n,).
         visible: Whole profile inside the picture, shape (n,).
+        by_row_way: Derivative of the predicted place along the normal by the way per row, (n, 2).
         gain: Derivative of the offset by a shift of the edge: 1 where the profile holds all of
             the edge, less where blur or motion carry it beyond the ends, shape (n,).
         variance_px2: Second central moment of the gradient: the edge's blur squared, shape (n,).
@@ -51,6 +52,7 @@ class EdgeOffsets(NamedTuple):
     by_pose: Array
     contrast: Array
     visible: NDArray[np.bool_]
+    by_row_way: Array
     gain: Array
     variance_px2: Array
     black: Array
@@ -75,6 +77,7 @@ def edge_offsets(
     spread_px: Array | float = 0.0,
     reach_px: float = MOST_REACH_PX,
     levels: ProfileLevels | None = None,
+    row_way: Array | None = None,
 ) -> EdgeOffsets:
     """Sample the grey values across every edge and take the centroid of their gradient.
 
@@ -88,8 +91,12 @@ def edge_offsets(
             centred there.
         reach_px: Half length of the profiles, where half a module is not shorter.
         levels: Local black and contrast to measure against; None takes the grey values.
+        row_way: How far the label moves in the picture from one row's exposure to the next,
+            shape (2,) [px]; the pose is that of the middle row.
     """
     seen = project(camera, T_camera_label, edges.points_mm)
+    rows = seen.pixels[:, 1:] - (image.shape[0] - 1) / 2
+    pixels = seen.pixels if row_way is None else seen.pixels + rows * row_way
     in_plane = seen.by_point @ T_camera_label[:3, :2]  # pixel by label x and y, (n, 2, 2)
     to_white = np.einsum("nij,nj->ni", in_plane, edges.normals)
     along = np.einsum("nij,nj->ni", in_plane, edges.tangents)
@@ -105,7 +112,7 @@ def edge_offsets(
     # Steps of a pixel, but of half a pixel across the short profiles of sharp edges.
     half_steps = min(int(np.ceil(max(longest, min(2 * longest, 6.0)))), _MOST_HALF_STEPS)
     steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
-    middle = seen.pixels + normal * np.reshape(spread_px, (-1, 1))
+    middle = pixels + normal * np.reshape(spread_px, (-1, 1))
     forward = normal * reach[:, None]
     beside = along * edges.length_mm
     extent = np.abs(forward) + np.abs(beside) / 3
@@ -129,7 +136,17 @@ def edge_offsets(
     variance = moments[:, 1] / safe * reach**2 - centroid**2
     by_pose = seen.by_pose_along(normal)
     gain = _gain(gradient, moments[:, 0] / safe, safe, half_steps)
-    return EdgeOffsets(offset, by_pose, contrast, visible, gain, variance, black, white)
+    return EdgeOffsets(
+        offset_px=offset,
+        by_pose=by_pose,
+        contrast=contrast,
+        visible=visible,
+        by_row_way=normal * rows,
+        gain=gain,
+        variance_px2=variance,
+        black=black,
+        white=white,
+    )
 
 
 def _gain(

@@ -66,7 +66,8 @@ def robust_step(
     Args:
         measured: Edges as the current pose sees them.
         spread_px: Current edge spread at each of them, shape (n,).
-        by_spread: Its derivative by the numbers that describe it, shape (n, s).
+        by_spread: Its derivative by the numbers that describe it, shape (n, s), and by whatever
+            else is unknown.
         upright: Which edges run along the label's y axis, shape (n,).
 
     Returns:

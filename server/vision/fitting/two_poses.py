@@ -38,6 +38,7 @@ def fit_best(
     starts: Sequence[Array],
     *,
     inverted: bool = False,
+    moving: bool = False,
 ) -> EdgeFit:
     """Fit from every start, best first, and keep the pose that the edges prefer.
 
@@ -47,6 +48,7 @@ def fit_best(
         edges: Edges of the code.
         starts: Start poses, shape (4, 4) each [mm].
         inverted: The code is white on black.
+        moving: Something moves: see ``fit_edges``.
 
     Raises:
         FitFailedError: no start leads to a pose.
@@ -63,7 +65,7 @@ def fit_best(
             break
     near.sort(key=lambda came: came.rms_px)
     near = [came for came in near if came.rms_px <= CLEARLY_WORSE * near[0].rms_px]
-    fits = [finish(image, camera, edges, came, inverted=inverted) for came in near]
+    fits = [finish(image, camera, edges, came, inverted=inverted, moving=moving) for came in near]
     found = sorted((fit for fit in fits if fit is not None), key=lambda fit: fit.rms_px)
     if not found:
         raise FitFailedError("Too few edges are visible, or the fit does not settle.")

@@ -107,17 +107,18 @@ def test_the_covariance_is_honest() -> None:
     assert 3.5 < float(np.mean(chi2)) < 8.0
 
 
-def test_a_moving_label_is_located_where_it_is_in_the_middle_of_the_exposure_or_not() -> None:
-    """A sensor that reads row by row shears what moves: that is no flat label any more."""
-    for speed_mm_s in (2.0, 10.0, 90.0):
-        scene = view(HEAD_ON, velocity_mm_s=(speed_mm_s, -0.4 * speed_mm_s, 0.0))
-        try:
-            found = Locator(OPTICS).locate(picture(scene), label_size_mm=SIZE_MM)
-        except EdgesDoNotFitError:
-            assert speed_mm_s > 5.0
-            continue
-        miss_mm = np.abs(pose_error(found.T_camera_label, HEAD_ON)[3:5]).max()
-        assert miss_mm < 0.01 + 0.01 * speed_mm_s
+@pytest.mark.parametrize("speed_mm_s", [2.0, 30.0, 90.0])
+def test_a_moving_label_is_located_where_it_is_in_the_middle_of_the_exposure(
+    speed_mm_s: float,
+) -> None:
+    """A sensor that reads row by row shears what moves; the fit takes that out."""
+    scene = view(HEAD_ON, velocity_mm_s=(speed_mm_s, -0.4 * speed_mm_s, 0.0))
+    image = picture(scene)
+    locator = Locator(OPTICS)
+    found = locator.locate(image, label_size_mm=SIZE_MM, moving=True)
+    assert np.abs(pose_error(found.T_camera_label, HEAD_ON)[3:5]).max() < 0.03
+    again = locator.locate(image, label_size_mm=SIZE_MM, predicted=HEAD_ON, moving=True)
+    assert np.abs(pose_error(again.T_camera_label, HEAD_ON)[3:5]).max() < 0.03
 
 
 def test_a_wrong_label_size_scales_the_pose_and_nothing_else() -> None:
