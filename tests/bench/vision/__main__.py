@@ -29,7 +29,7 @@ from tests.bench.vision.methods import (
     compared,
     tag_library,
 )
-from tests.bench.vision.plot import Points, error_plot
+from tests.bench.vision.plot import error_plot
 from tests.bench.vision.scenes import camera_720p, plain_scene
 from tests.bench.vision.scores import Scores, merged
 from tests.bench.vision.table import HEAD, document, row
@@ -151,8 +151,8 @@ def main() -> None:
             put(row(f"{data.group}: {data.name}", f"{nearest:.0f}-{farthest:.0f}", name, score))
             groups[data.group, name].append(score)
         if data.group == "nominal" and data.size_mm == 60.0:
-            for name, found in _points(data, camera, scores, frames).items():
-                points[name] += found
+            for name, score in scores.items():
+                points[name] += zip(score.ranges_mm, score.lateral_mm.tolist(), strict=True)
     for (group, name), parts in groups.items():
         put(row(f"all {group}", "", name, merged(parts)))
     put(full_field(frames))
@@ -162,18 +162,6 @@ def main() -> None:
         (arguments.out / "vision.md").write_text(document(rows, frames), encoding="utf-8")
         picture = error_plot("Lateral error, 60 mm label, nominal", points)
         (arguments.out / "vision.svg").write_text(picture, encoding="utf-8")
-
-
-def _points(
-    data: DataSet, camera: CameraModel, scores: dict[str, Scores], frames: int
-) -> dict[str, Points]:
-    """Distance and lateral error of every picture, for methods that found all of them."""
-    distances = [float(scene.pose[2, 3]) for scene, _ in data.scenes(camera, frames)]
-    return {
-        name: list(zip(distances, score.lateral_mm.tolist(), strict=True))
-        for name, score in scores.items()
-        if len(score.errors) == frames
-    }
 
 
 if __name__ == "__main__":

@@ -9,8 +9,8 @@ from html import escape
 
 import numpy as np
 
-WIDTH, HEIGHT = 860, 460
-LEFT, RIGHT, TOP, BOTTOM = 70, 250, 46, 56
+WIDTH, HEIGHT = 940, 460
+LEFT, RIGHT, TOP, BOTTOM = 70, 330, 46, 56
 COLOURS = ("#0b6e4f", "#2a9d8f", "#c8553d", "#e09f3e", "#5b5f97", "#8d99ae", "#9c6644")
 
 Points = Sequence[tuple[float, float]]

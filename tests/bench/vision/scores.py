@@ -19,12 +19,14 @@ class Scores:
     Attributes:
         asked: Pictures it was given.
         errors: (omega [rad], tau [mm]) of every pose found.
+        ranges_mm: True distance along the optical axis of every pose found.
         distances: Normalised squared errors, where the method gives a covariance.
         times_s: Processor time per picture.
     """
 
     asked: int = 0
     errors: list[Array] = field(default_factory=list)
+    ranges_mm: list[float] = field(default_factory=list)
     distances: list[float] = field(default_factory=list)
     times_s: list[float] = field(default_factory=list)
 
@@ -39,6 +41,7 @@ class Scores:
         turn = rotation_vector(found[:3, :3] @ true[:3, :3].T)
         error = np.concatenate((turn, found[:3, 3] - true[:3, 3]))
         self.errors.append(error)
+        self.ranges_mm.append(float(true[2, 3]))
         if covariance is not None:
             self.distances.append(float(error @ np.linalg.solve(covariance, error)))
 
@@ -75,6 +78,7 @@ def merged(parts: list[Scores]) -> Scores:
     return Scores(
         asked=sum(part.asked for part in parts),
         errors=[error for part in parts for error in part.errors],
+        ranges_mm=[distance for part in parts for distance in part.ranges_mm],
         distances=[distance for part in parts for distance in part.distances],
         times_s=[time for part in parts for time in part.times_s],
     )
