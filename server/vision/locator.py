@@ -20,7 +20,7 @@ from server.vision.fitting.code_edges import code_edges
 from server.vision.fitting.corner_pose import corner_pose
 from server.vision.fitting.edge_fit import EdgeFit, fit_edges
 from server.vision.fitting.start_pose import corners_mm, start_poses
-from server.vision.fitting.two_poses import fit_best
+from server.vision.fitting.two_poses import fit_best, may_be_opposite
 from server.vision.gates import Gates, turn_deg
 from server.vision.label_pose import LabelPose
 from server.vision.markers.code import Code
@@ -217,6 +217,8 @@ class Locator:
             image, self._camera, edges, predicted, inverted=track.inverted, moving=moving
         )
         if fit is None:
+            return None
+        if may_be_opposite(image, self._camera, edges, fit, inverted=track.inverted):
             return None
         if turn_deg(fit.T_camera_label, predicted) > self._gates.tracked_turn_deg:
             return None

@@ -16,7 +16,7 @@ from drivers.camera import CameraModel
 from server.vision.errors import AmbiguousTiltError, FitFailedError
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_fit import Approach, EdgeFit, approach, finish
-from server.vision.projection import Array, rotation_vector
+from server.vision.projection import Array, perturbed, rotation_vector
 
 SAME_POSE_RAD = math.radians(1.0)
 """Two starts that lead to poses turned by less than this lead to the same pose."""
@@ -26,6 +26,10 @@ CLEARLY_WORSE = 1.6
 
 LEAST_EVIDENCE = 25.0
 """Smallest n ln(rms2^2 / rms1^2), twice the logarithm of the likelihood ratio of normal errors."""
+
+BENT_SHARE = 0.1
+"""The residuals must differ by more than this share of what a bent label does to them: the
+likelihood ratio knows noise only."""
 
 _PLAIN_KEYSTONE_PX = 1.5
 _PLAIN_RESIDUAL = 0.2
@@ -60,7 +64,7 @@ def fit_best(
         if came is None or any(_is_same(came, other) for other in near):
             continue
         near.append(came)
-        if _is_plain(camera, came, edges):
+        if _is_plain(camera, came.T_camera_label, came.rms_px, edges):
             near = [came]
             break
     near.sort(key=lambda came: came.rms_px)
@@ -74,10 +78,47 @@ def fit_best(
         if _turn_rad(best.T_camera_label, other.T_camera_label) < SAME_POSE_RAD:
             continue
         evidence = 2 * best.edge_count * math.log(other.rms_px / best.rms_px)
-        if evidence < LEAST_EVIDENCE:
+        excess_px2 = other.rms_px**2 - best.rms_px**2
+        if evidence < LEAST_EVIDENCE or excess_px2 < BENT_SHARE * best.bow_px**2:
             detail = "The label may be tilted one way or the other: the picture fits both."
             raise AmbiguousTiltError(detail, evidence=round(evidence, 1))
     return best
+
+
+def may_be_opposite(
+    image: NDArray[np.uint8],
+    camera: CameraModel,
+    edges: CodeEdges,
+    fit: EdgeFit,
+    *,
+    inverted: bool = False,
+) -> bool:
+    """Whether the opposite tilt explains the picture about as well as a fit from one start does.
+
+    Arguments as of ``fit_best``.
+    """
+    pose = fit.T_camera_label
+    if _is_plain(camera, pose, fit.rms_px, edges):
+        return False
+    opposite = _opposite(pose)
+    if _turn_rad(opposite, pose) < SAME_POSE_RAD:
+        return False
+    came = approach(image, camera, edges, opposite, inverted=inverted)
+    if came is None or _turn_rad(came.T_camera_label, pose) < SAME_POSE_RAD:
+        return False
+    return came.rms_px < CLEARLY_WORSE * fit.rms_px
+
+
+def _opposite(pose: Array) -> Array:
+    """The pose with its normal mirrored at the line of sight."""
+    sight = pose[:3, 3] / np.linalg.norm(pose[:3, 3])
+    normal = pose[:3, 2]
+    axis = np.cross(normal, sight)
+    sine = float(np.linalg.norm(axis))
+    if sine == 0.0:
+        return pose
+    angle = 2 * math.atan2(sine, float(normal @ sight))
+    return perturbed(pose, np.concatenate((axis * (angle / sine), np.zeros(3))))
 
 
 def _is_same(one: Approach, other: Approach) -> bool:
@@ -88,14 +129,13 @@ def _turn_rad(one: Array, other: Array) -> float:
     return float(np.linalg.norm(rotation_vector(one[:3, :3] @ other[:3, :3].T)))
 
 
-def _is_plain(camera: CameraModel, came: Approach, edges: CodeEdges) -> bool:
-    """Whether the opposite tilt would have left far larger residuals than this pose does.
+def _is_plain(camera: CameraModel, pose: Array, rms_px: float, edges: CodeEdges) -> bool:
+    """Whether the opposite tilt would have left far larger residuals than a pose does.
 
     Turning the tilt round moves a corner by about 2 f (size / 2)^2 sin(tilt) / z^2.
     """
-    pose = came.T_camera_label
     sight = pose[:3, 3] / np.linalg.norm(pose[:3, 3])
     sine = float(np.linalg.norm(np.cross(sight, pose[:3, 2])))
     half_mm = float(np.abs(edges.points_mm).max())
     keystone_px = 2 * camera.fx * half_mm**2 * sine / float(pose[2, 3]) ** 2
-    return keystone_px > _PLAIN_KEYSTONE_PX and came.rms_px < _PLAIN_RESIDUAL * keystone_px
+    return keystone_px > _PLAIN_KEYSTONE_PX and rms_px < _PLAIN_RESIDUAL * keystone_px
