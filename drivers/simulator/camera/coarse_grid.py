@@ -1,8 +1,9 @@
-"""Smooth things are worked out at every sixteenth pixel and enlarged."""
+"""What changes smoothly from pixel to pixel is worked out at a few of them and enlarged."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -11,6 +12,15 @@ from numpy.typing import NDArray
 from drivers.camera import CameraModel
 
 Field = NDArray[np.float32]
+
+
+class Region(NamedTuple):
+    """A rectangle of pixels; right and bottom are one past the last."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
 
 
 class CoarseGrid:
@@ -26,7 +36,7 @@ class CoarseGrid:
 
     def __init__(self, optics: CameraModel, stride_px: int) -> None:
         self._stride_px = stride_px
-        self._size = (optics.height, optics.width)
+        self.optics = optics
         u = self._places(optics.width)
         v = self._places(optics.height)
         pixels = np.stack(np.meshgrid(u, v), axis=-1)
@@ -44,19 +54,23 @@ class CoarseGrid:
 
     def enlarged(self, field: Field) -> Field:
         """Linear interpolation of a field on the nodes, shape (m, n), to all pixels."""
-        height, width = self._size
-        return self.enlarged_part(field, (0, 0, width, height))
+        whole = Region(0, 0, self.optics.width, self.optics.height)
+        return self.enlarged_part(field[self.around(whole)], whole)
 
-    def enlarged_part(self, field: Field, part: tuple[int, int, int, int]) -> Field:
-        """The same for the pixels from left, top to right, bottom (one past the last)."""
+    def around(self, part: Region) -> tuple[slice, slice]:
+        """Rows and columns of the nodes that ``enlarged_part`` needs."""
         stride = self._stride_px
-        left, top, right, bottom = part
-        columns = slice(left // stride, (right - 1) // stride + 3)
-        rows = slice(top // stride, (bottom - 1) // stride + 3)
-        nodes = np.ascontiguousarray(field[rows, columns])
+        rows = slice(part.top // stride, (part.bottom - 1) // stride + 3)
+        columns = slice(part.left // stride, (part.right - 1) // stride + 3)
+        return rows, columns
+
+    def enlarged_part(self, nodes: Field, part: Region) -> Field:
+        """Linear interpolation of the nodes around a part of the picture to its pixels."""
+        stride = self._stride_px
         size = (nodes.shape[1] * stride, nodes.shape[0] * stride)
-        large = cv2.resize(nodes, size, interpolation=cv2.INTER_LINEAR)
-        across, down = left % stride + stride, top % stride + stride
-        return np.asarray(
-            large[down : down + bottom - top, across : across + right - left], dtype=np.float32
-        )
+        large = cv2.resize(np.ascontiguousarray(nodes), size, interpolation=cv2.INTER_LINEAR)
+        across, down = part.left % stride + stride, part.top % stride + stride
+        inside = np.s_[
+            down : down + part.bottom - part.top, across : across + part.right - part.left
+        ]
+        return np.asarray(large[inside], dtype=np.float32)

@@ -24,10 +24,10 @@ from drivers.simulator.camera.lighting import (
 )
 from drivers.simulator.camera.panel_drops import panel_drops
 from drivers.simulator.camera.plug_silhouette import draw_plug
-from drivers.simulator.camera.ray_grid import RayGrid
 from drivers.simulator.camera.row_motion import RowMotion
 from drivers.simulator.camera.socket_texture import socket_texture
 from drivers.simulator.camera.textured_plane import (
+    STRIDE_PX,
     Canvas,
     PlacedPlane,
     PlaneTexture,
@@ -82,7 +82,7 @@ class SceneRenderer:
         self._optics = optics
         self._imaging = imaging
         self._conditions = conditions
-        self._rays = RayGrid(optics)
+        self._rays = CoarseGrid(optics, STRIDE_PX)
         self._grid = CoarseGrid(optics, COARSE_PX)
         self._lighting = Lighting(imaging, conditions.lamps, optics, self._grid)
         self._label = LabelPainter(imaging, conditions, seed)
