@@ -41,6 +41,9 @@ class LabelConditions(_Group):
     dirt: Share = Field(0.004, description="share of the label under specks and smears")
     covered: Share = Field(0.0, description="share of the code under mud, tape or a leaf")
     gloss: Brightness = Field(0.25, description="of the paper; car paint has 1")
+    roughness_rad: Annotated[float, Field(gt=0, le=1)] = Field(
+        0.14, description="smears reflections in the paper; a laminated label has 0.05"
+    )
 
 
 class LampConditions(_Group):

@@ -18,7 +18,6 @@ OWN_LIGHT_AT_MM = 300.0
 """At this distance, straight ahead, the robot's own light has the brightness it is given."""
 
 PAINT_ROUGHNESS_RAD = 0.035
-PAPER_ROUGHNESS_RAD = 0.14
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,7 +17,6 @@ from drivers.simulator.camera.label_condition import LabelCondition
 from drivers.simulator.camera.label_texture import LabelPainter
 from drivers.simulator.camera.lighting import (
     PAINT_ROUGHNESS_RAD,
-    PAPER_ROUGHNESS_RAD,
     Light,
     Lighting,
     reflections,
@@ -160,10 +159,10 @@ class SceneRenderer:
             draw("drops", lambda: drops, PlacedPlane(socket))
         if not _NEAREST_MM < label[2, 3] < _BODY_WITHIN_MM:
             return
-        gloss = self._conditions.label.gloss
+        gloss, roughness_rad = self._conditions.label.gloss, self._conditions.label.roughness_rad
         shine = None
         if light.lamps and gloss:
-            field = self._gloss(car, light, (0.0, 0.0), PAPER_ROUGHNESS_RAD)
+            field = self._gloss(car, light, (0.0, 0.0), roughness_rad)
             shine = (self._grid, field * np.float32(gloss))
         texels = self._texels(view)
         key = (view.payload, view.label_size_mm, texels)

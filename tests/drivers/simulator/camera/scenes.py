@@ -24,7 +24,7 @@ def scenes() -> dict[str, SimulationParameters]:
     """Every configuration example by its heading, and the defaults first."""
     found = {"Ordinary garage": SimulationParameters()}
     for heading, example in re.findall(
-        r"^### (.+?)\n+```toml\n(.+?)```", README.read_text(), re.MULTILINE | re.DOTALL
+        r"^### (.+?)$[^`]+?```toml\n(.+?)```", README.read_text(), re.MULTILINE | re.DOTALL
     ):
         parameters = tomllib.loads(example)["simulation"]["parameters"]
         found[heading] = SimulationParameters.model_validate(parameters)
