@@ -16,11 +16,12 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format bench campaign rig board lock clean setup-dev system-packages \
+.PHONY: help setup run test lint format bench bench-vision campaign rig board lock clean \
+	setup-dev system-packages \
 	check-style check-types check-web test-python test-web
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' Makefile
 
 setup: $(VENV)/.project ## install PlugPilot and build its pages, once
 
@@ -42,6 +43,9 @@ bench: setup-dev ## run the benchmarks
 		name=$$(basename $$file .py); echo "-- $$name"; \
 		$(BIN)/python -m tests.bench.$$name || exit 1; \
 	done
+
+bench-vision: setup-dev ## compare ways of locating the label; --quick, --frames N in ARGS
+	@$(BIN)/python -m tests.bench.vision --out build $(ARGS)
 
 rig: setup-dev system-packages ## test the real firmware at length: fault by fault, step by step
 	@$(BIN)/pytest --no-header tests/rig tests/rig/campaign $(ARGS)

@@ -10,6 +10,12 @@ from typing import TypeVar
 from drivers.arduino.driver import ArduinoRobot
 from drivers.arduino.settings import BoardSettings
 from drivers.camera import CameraDriver, CameraModel
+from drivers.camera.grabbing import GrabbingCamera
+from drivers.camera.picamera import PiCameraSource
+from drivers.camera.replay import ReplaySource
+from drivers.camera.settings import CameraLinks
+from drivers.camera.stream import StreamSource
+from drivers.camera.v4l2 import V4l2Source
 from drivers.errors import UnknownDriverError
 from drivers.robot import RobotDriver
 from drivers.simulator.garage import (
@@ -44,6 +50,7 @@ class DeviceRequest:
         simulation: Numbers of the simulated garage.
         seed: Decides everything random in it.
         board: Numbers of the real motion board.
+        cameras: How real cameras are reached.
     """
 
     robot: str
@@ -57,6 +64,7 @@ class DeviceRequest:
     simulation: SimulationParameters
     seed: int
     board: BoardSettings = field(default_factory=BoardSettings)
+    cameras: CameraLinks = field(default_factory=CameraLinks)
 
     @property
     def simulated(self) -> bool:
@@ -104,6 +112,16 @@ ROBOTS: Mapping[str, Callable[[DeviceRequest], RobotDriver]] = {
 }
 CAMERAS: Mapping[str, Callable[[DeviceRequest], CameraDriver]] = {
     SIMULATOR: lambda request: request.surroundings.camera,
+    "v4l2": lambda request: GrabbingCamera(
+        V4l2Source(request.cameras.v4l2, request.optics), request.optics
+    ),
+    "picamera": lambda request: GrabbingCamera(
+        PiCameraSource(request.cameras.picamera, request.optics), request.optics
+    ),
+    "stream": lambda request: GrabbingCamera(StreamSource(request.cameras.stream), request.optics),
+    "replay": lambda request: GrabbingCamera(
+        ReplaySource(request.cameras.replay), request.optics, moving=False
+    ),
 }
 STATIONS: Mapping[str, Callable[[DeviceRequest], StationDriver]] = {
     SIMULATOR: lambda request: request.surroundings.station,

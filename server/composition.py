@@ -12,8 +12,8 @@ import cv2
 from drivers.camera import CameraError
 from drivers.errors import UnknownDriverError
 from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
-from drivers.simulator.car import ParkedCar
 from drivers.simulator.following import RobotFollower
+from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationError
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
@@ -22,6 +22,8 @@ from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.divergence.report import twin_report
 from server.jobs.runner import JobRunner
+from server.labels.key_file import load_label_key
+from server.labels.payload import LabelKey
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
 from server.live.station_watch import StationWatch
@@ -89,11 +91,11 @@ async def running(
         database = Database(folder)
         await database.open()
         stack.push_async_callback(database.close)
-        jobs, vehicles = JobStore(database), VehicleStore(database)
+        jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
         if devices.world is not None and settings.camera.driver == SIMULATOR:
-            await _introduce(devices.world.car, vehicles)
+            await _introduce(devices.world, vehicles)
 
         supervisor = Supervisor(
             devices.robot, settings.geometry, settings.motion, StoredPlug(database), calendar
@@ -179,6 +181,7 @@ def _devices(settings: Settings) -> Devices:
         station=settings.station.driver,
         port=settings.robot.port,
         board=settings.robot.board,
+        cameras=settings.camera.link,
         geometry=settings.geometry,
         limits=settings.motion,
         mount=settings.camera.mount,
@@ -206,14 +209,22 @@ async def _open(devices: Devices, stack: contextlib.AsyncExitStack) -> None:
         _log.warning("the charging station is down: %s", error)
 
 
-async def _introduce(car: ParkedCar, vehicles: VehicleStore) -> None:
-    """Make the simulated car known, as its owner would have measured it.
+def _label_key(settings: Settings, folder: Path | None) -> LabelKey:
+    """The key of this installation; without a folder one that the seed repeats."""
+    if folder is not None:
+        return load_label_key(folder)
+    return LabelKey(settings.simulation.seed.to_bytes(16, "big"))
+
+
+async def _introduce(world: SimulatedWorld, vehicles: VehicleStore) -> None:
+    """Make the simulated car known, as its owner would have measured it, and label it.
 
     Done at every start: another seed is another car with the same label.
     """
+    car = world.car
     offset = car.known_offset
-    await vehicles.put(
-        car.payload.rsplit(":", 1)[-1],
+    vehicle, _ = await vehicles.put(
+        car.vehicle_id,
         VehicleSettings(
             name=DEMO_NAME,
             label_size_mm=car.label_size_mm,
@@ -226,6 +237,7 @@ async def _introduce(car: ParkedCar, vehicles: VehicleStore) -> None:
             ),
         ),
     )
+    world.stick_label(vehicle.label_payload)
 
 
 def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:

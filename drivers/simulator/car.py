@@ -40,6 +40,7 @@ class ParkedCar:
         T_base_label: True pose of the label.
         T_base_socket: True pose of the socket: origin the centre of its face, z into the car.
         known_offset: What the owner's settings say about label and socket.
+        vehicle_id: Whose label it is.
         payload: Text in the label's QR code.
         label_size_mm: Side of the code without its quiet zone.
         peak_force_n: Insertion force of its socket at the worst depth.
@@ -49,6 +50,7 @@ class ParkedCar:
     T_base_label: Pose
     T_base_socket: Pose
     known_offset: KnownOffset
+    vehicle_id: str
     payload: str
     label_size_mm: float
     peak_force_n: float
@@ -99,7 +101,8 @@ def park(
         T_base_label=base_socket @ poses.inverse(label_socket),
         T_base_socket=base_socket,
         known_offset=KnownOffset(x_mm, y_mm, z_mm, float(about_x), float(about_y)),
-        payload=f"PLUGPILOT:1:{car.vehicle_id}",
+        vehicle_id=car.vehicle_id,
+        payload=car.vehicle_id,
         label_size_mm=car.label_size_mm,
         peak_force_n=max(rng.normal(contact.peak_force_n, contact.peak_force_std_n), 0.0),
         wanted_wh=max(car.target_state_of_charge - charge, 0.0) * car.battery_wh,

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from drivers.camera import CameraModel
 from drivers.simulator.build import built_optics
-from drivers.simulator.camera import ImagingParameters, SimulatedCamera
+from drivers.simulator.camera.camera import SimulatedCamera
+from drivers.simulator.camera.imaging import ImagingParameters
 from drivers.simulator.following import RobotFollower, without_motors
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.robot import SimulatedRobot
@@ -70,7 +71,7 @@ def build_garage(
         optics: The camera as its data sheet says.
         parameters: All numbers of the simulation.
         seed: Decides everything random; the same seed gives the same garage and the same run.
-        imaging: Light, exposure and noise of the camera; None takes its defaults.
+        imaging: Light, exposure and noise of the camera; None takes those of the parameters.
     """
     world = SimulatedWorld(geometry, limits, mount, parameters, seed)
     camera = _camera(world, optics, imaging, seed)
@@ -100,5 +101,8 @@ def build_followed_garage(
 def _camera(
     world: SimulatedWorld, optics: CameraModel, imaging: ImagingParameters | None, seed: int
 ) -> SimulatedCamera:
-    true_optics = built_optics(optics, world.parameters.build, world.streams.optics)
-    return SimulatedCamera(world.view_at, true_optics, imaging or ImagingParameters(), seed)
+    parameters = world.parameters
+    true_optics = built_optics(optics, parameters.build, world.streams.optics)
+    return SimulatedCamera(
+        world.view_at, true_optics, imaging or parameters.imaging, seed, parameters.conditions
+    )

@@ -1,4 +1,4 @@
-"""Every number of the simulated garage: errors of the build, motors, board, socket, car, station.
+"""Every number of the simulated garage: errors of the build, motors, board, socket, car, camera.
 
 The defaults are this project's own estimates of the real machine unless a source is named.
 """
@@ -10,6 +10,8 @@ from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from drivers.simulator.camera.conditions import FLAWLESS, Conditions
+from drivers.simulator.camera.imaging import ImagingParameters
 from twin.joints import JointPosition
 
 Spread = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
@@ -200,10 +202,12 @@ class SimulationParameters(Parameters):
     contact: ContactParameters = ContactParameters()
     car: CarParameters = CarParameters()
     station: StationParameters = StationParameters()
+    imaging: ImagingParameters = ImagingParameters()
+    conditions: Conditions = Conditions()
 
     @classmethod
     def perfect(cls) -> Self:
-        """A machine built as drawn, without play, noise or sag, and a car parked straight.
+        """A machine built as drawn, without play, noise or sag; a straight car, a flawless label.
 
         Steps, encoder counts, lags and delays stay as they are; the car's place is still drawn
         from the seed.
@@ -228,4 +232,5 @@ class SimulationParameters(Parameters):
                 tilt_std_rad=0, sticking_std_mm=0, sticking_angle_std_rad=0, knowledge_std_mm=0
             ),
             station=StationParameters(current_noise_std=0),
+            conditions=FLAWLESS,
         )

@@ -127,7 +127,7 @@ class SimulatedWorld:
         """
         rng = np.random.default_rng(seed)
         parked = park(self.geometry, self.parameters.car, self.parameters.contact, rng)
-        self._drive(parked)
+        self._drive(replace(parked, payload=self._car.payload))
 
     def remove_car(self) -> None:
         """The car drives away.
@@ -136,6 +136,11 @@ class SimulatedWorld:
             CarIsPluggedInError: the plug is in the socket.
         """
         self._drive(self._car.driven_away())
+
+    def stick_label(self, text: str) -> None:
+        """Put a new label over the old one, with another text; cars that park later have it too."""
+        self._car = replace(self._car, payload=text)
+        self._parked = replace(self._parked, payload=text)
 
     def hide_label(self) -> None:
         """Something covers the label; the socket stays where it is."""

@@ -25,7 +25,9 @@ _SUBCOMMANDS = {
     "workspace": _Subcommand(
         "server.cli.workspace", "Study the robot's design; find a smaller one."
     ),
+    "label": _Subcommand("server.cli.label", "Make a label for a vehicle, to be printed."),
     "locate": _Subcommand("server.cli.locate", "Find the socket in pictures."),
+    "calibrate": _Subcommand("server.cli.calibrate", "Find the numbers of this robot's parts."),
     "firmware": _Subcommand("server.cli.firmware", "Build and write the board's firmware."),
     "config": _Subcommand("server.cli.config", "Print the settings in force."),
     "version": _Subcommand("server.cli.version", "Print the version."),

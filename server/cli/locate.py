@@ -15,6 +15,8 @@ from server.vision.errors import PoseRejectedError, VisionError
 from server.vision.image_file import load_grey_image
 from server.vision.label_pose import LabelPose
 from server.vision.locator import Locator
+from server.vision.markers.april_tags import AprilTags
+from server.vision.markers.qr_codes import QrCodes
 
 RESOLUTION_MISMATCH = "resolution_mismatch"
 CORNERS_ONLY = "corners_only"
@@ -39,16 +41,24 @@ CORNERS_ONLY = "corners_only"
     help="Measured outer side of the code without its white margin.",
 )
 @click.option("--payload", default=None, help="Accept only the code with this text.")
+@click.option(
+    "--marker",
+    type=click.Choice(["qr", "apriltag"]),
+    default="qr",
+    show_default=True,
+    help="Kind of label: a QR code, or an AprilTag of the family 36h11.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object per picture.")
 def locate(
     images: tuple[Path, ...],
     camera_file: Path,
     label_size_mm: float,
     payload: str | None,
+    marker: str,
     *,
     as_json: bool,
 ) -> None:
-    """Find the socket's QR label in pictures.
+    """Find the socket's label in pictures.
 
     Prints the pose of the label in the camera frame (x right, y down, z forward, mm) with the
     6 x 6 covariance of (rotation [rad], translation [mm]): a small rotation about the label's
@@ -58,7 +68,8 @@ def locate(
 
     Exit status: 0 if every picture was located, 1 if one or more were not, 2 for wrong usage.
     """
-    locator = Locator(load_camera_file(camera_file))
+    kind = AprilTags() if marker == "apriltag" else QrCodes()
+    locator = Locator(load_camera_file(camera_file), marker=kind)
     failed = False
     for path in images:
         result = _locate_file(locator, path, label_size_mm, payload)

@@ -63,6 +63,7 @@ def serve(
     )
     require_board_for_serial(port_settings, settings)
     # imported late: wrong settings are told without waiting for vision and the scene to load
+    from server.calibration.camera.in_force import with_camera_calibration  # noqa: PLC0415
     from server.serving import serve as run  # noqa: PLC0415
 
-    run(settings)
+    run(with_camera_calibration(settings))

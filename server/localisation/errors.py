@@ -4,6 +4,8 @@ LocalisationError
 ├── LabelNotFoundError       the label was in none of the looks
 ├── SocketUnreachableError   the socket is outside what the robot can reach
 ├── UncertainPoseError       the pose is not certain enough to insert
+├── LabelSizeWrongError      the label is not as large as entered
+├── ImplausiblePlaceError    the label is where no parked car is
 └── CameraDownError          the camera does not deliver
 """
 
@@ -45,6 +47,22 @@ class UncertainPoseError(LocalisationError):
     code = "pose_uncertain"
     title = "The picture of the label is not sharp enough"
     remedy = "Clean the label and the camera, switch a light on, and try again."
+
+
+class LabelSizeWrongError(LocalisationError):
+    """Looks from different places show that the label is not as large as entered."""
+
+    code = "label_size_wrong"
+    title = "The label is not as large as entered"
+    remedy = "Measure the printed code without its white margin, and enter its size."
+
+
+class ImplausiblePlaceError(LocalisationError):
+    """The label is where no parked car is: another label, a picture of it, or a wrong size."""
+
+    code = "place_implausible"
+    title = "The label is where no parked car is"
+    remedy = "Check that the label is on the car, and that its size was entered rightly."
 
 
 class CameraDownError(LocalisationError):

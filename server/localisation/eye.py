@@ -4,19 +4,32 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from dataclasses import replace
 
 from drivers.camera import CameraDriver, CameraError, CameraModel, Frame
 from server.control.board import MOVING
 from server.control.telemetry import Telemetry
-from server.localisation.errors import CameraDownError
+from server.localisation.errors import CameraDownError, ImplausiblePlaceError
 from server.localisation.frames import Pose, base_from_camera, inverse
+from server.localisation.label_size import LabelSizeCheck, SizeEstimate
+from server.localisation.plausible_place import require_plausible_place
 from server.localisation.socket_pose import SocketPose, socket_from_label
 from server.schema.vehicles import Vehicle
-from server.vision import LabelPose, Locator, VisionError, combine
+from server.vision import (
+    AmbiguousLabelError,
+    LabelPose,
+    Locator,
+    PoseRejectedError,
+    VisionError,
+    combine,
+)
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 
 OnSighting = Callable[[SocketPose, Frame], None]
+Refusal = VisionError | ImplausiblePlaceError
+_DOUBTS = (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError)
+"""The label was read, but its pose does not deserve trust."""
 
 
 class Eye:
@@ -45,10 +58,22 @@ class Eye:
         self._telemetry = telemetry
         self._locator = Locator(optics)
         self._listeners: list[OnSighting] = []
+        self._size = LabelSizeCheck()
+        self._refusal: Refusal | None = None
 
     def listen(self, listener: OnSighting) -> None:
         """Call ``listener`` with every pose and the picture it came from (the last of several)."""
         self._listeners.append(listener)
+
+    @property
+    def refusal(self) -> Refusal | None:
+        """Why the last picture gave no pose; None if it gave one."""
+        return self._refusal
+
+    @property
+    def label_size(self) -> SizeEstimate:
+        """What the looks from different places say about the label's true size."""
+        return self._size.estimate
 
     async def look(self, vehicle: Vehicle, expected: SocketPose | None = None) -> SocketPose | None:
         """Take one picture now and locate the vehicle's socket in it.
@@ -58,11 +83,15 @@ class Eye:
             expected: Where it was last seen; makes finding it quicker.
 
         Returns:
-            The socket's pose, or None when the label is not in the picture (or not good enough).
+            The socket's pose, or None when the label is not in the picture (or not good enough);
+            then ``refusal`` says why.
 
         Raises:
             CameraDownError: the camera does not deliver.
+            LabelSizeWrongError: this look and earlier ones show that the size is wrong.
         """
+        if expected is None:
+            self._size = LabelSizeCheck()  # nobody says that the car still stands where it stood
         frame = await self._frame()
         sighting = await self._locate(frame, vehicle, expected)
         if sighting is None:
@@ -75,22 +104,29 @@ class Eye:
         """Average several pictures taken at standstill.
 
         Returns:
-            The combined pose, or None when fewer than half of the pictures could be used.
+            The combined pose, or None when fewer than half of the pictures show the label.
 
         Raises:
             CameraDownError: the camera does not deliver.
+            LabelSizeWrongError: this look and earlier ones show that the size is wrong.
+            PoseRejectedError: the label is there, but its pose failed a gate; its kinds say which.
+            AmbiguousLabelError: the label is there more than once.
+            ImplausiblePlaceError: it is where no parked car is.
         """
         sightings: list[LabelPose] = []
-        frame = await self._frame()
-        for number in range(frames):
-            if number:
-                frame = await self._frame()
+        doubts: list[Refusal] = []
+        for _ in range(frames):
+            frame = await self._frame()
             sighting = await self._locate(frame, vehicle, expected)
             if sighting is not None:
                 sightings.append(sighting)
-        if 2 * len(sightings) < frames or not sightings:
-            return None
-        return await self._socket(combine(sightings), frame, vehicle)
+            elif isinstance(self._refusal, _DOUBTS):
+                doubts.append(self._refusal)
+        if sightings and 2 * len(sightings) >= frames:
+            return await self._socket(combine(sightings), frame, vehicle)
+        if 2 * len(doubts) >= frames:
+            raise doubts[-1]
+        return None
 
     async def _frame(self) -> Frame:
         try:
@@ -101,30 +137,57 @@ class Eye:
     async def _locate(
         self, frame: Frame, vehicle: Vehicle, expected: SocketPose | None
     ) -> LabelPose | None:
+        self._refusal = None
+        moving = self._moving
+        T_base_camera = await self._camera_pose(frame)
         predicted = None
         if expected is not None:
-            predicted = inverse(await self._camera_pose(frame)) @ expected.T_base_label
+            predicted = inverse(T_base_camera) @ expected.T_base_label
         try:
-            return await asyncio.to_thread(
+            sighting = await asyncio.to_thread(
                 self._locator.locate,
                 frame.image,
                 label_size_mm=vehicle.label_size_mm,
                 expected_payload=vehicle.label_payload,
                 predicted=predicted,
+                moving=moving,
             )
-        except VisionError:
+            if moving and predicted is not None:
+                sighting = _with_attitude(sighting, predicted)
+            require_plausible_place(self._geometry, T_base_camera @ sighting.T_camera_label)
+        except (VisionError, ImplausiblePlaceError) as error:
+            self._refusal = error
             return None
+        return sighting
 
     async def _socket(self, sighting: LabelPose, frame: Frame, vehicle: Vehicle) -> SocketPose:
-        socket = socket_from_label(
-            sighting, await self._camera_pose(frame), vehicle.socket, frame.captured_at_s
-        )
+        T_base_camera = await self._camera_pose(frame)
+        if not self._moving:
+            self._size.add(sighting, T_base_camera)
+            self._size.require_right_size(vehicle.label_size_mm)
+        socket = socket_from_label(sighting, T_base_camera, vehicle.socket, frame.captured_at_s)
         for listener in self._listeners:
             listener(socket, frame)
         return socket
 
+    @property
+    def _moving(self) -> bool:
+        return self._telemetry.require().board in MOVING
+
     async def _camera_pose(self, frame: Frame) -> Pose:
-        if self._telemetry.require().board in MOVING:
+        if self._moving:
             await self._telemetry.reach(frame.captured_at_s)
         joints = self._telemetry.joints_at(frame.captured_at_s)
         return base_from_camera(self._geometry, self.mount, joints)
+
+
+def _with_attitude(sighting: LabelPose, known: Pose) -> LabelPose:
+    """A look on the way with the label turned as it was seen from standstill.
+
+    The robot only translates and the car stands, so the attitude cannot have changed; a rolling
+    shutter turns what it sees from a moving robot by a degree or two. The covariance stays that of
+    the look alone.
+    """
+    T_camera_label = sighting.T_camera_label.copy()
+    T_camera_label[:3, :3] = known[:3, :3]
+    return replace(sighting, T_camera_label=T_camera_label)

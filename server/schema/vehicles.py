@@ -41,7 +41,7 @@ class Vehicle(VehicleSettings):
     """A vehicle that the robot knows."""
 
     id: VehicleId
-    label_payload: str = Field(description="Text in its QR label", examples=["PLUGPILOT:1:zoe"])
+    label_payload: str = Field(description="Text in its QR label", examples=["PP2:zoe:4NG43RRFJW"])
 
 
 class VehicleList(Wire):

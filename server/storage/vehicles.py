@@ -5,25 +5,29 @@ from __future__ import annotations
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
+from server.labels.payload import LabelKey, label_text
 from server.schema.vehicles import Vehicle, VehicleSettings
 from server.storage.database import Database
 from server.storage.tables import VehicleRow
 
-PAYLOAD_PREFIX = "PLUGPILOT:1:"
-"""Text in a vehicle's QR label before its id; 1 is the version of the format."""
-
 
 class VehicleStore:
-    """The vehicles that the robot knows."""
+    """The vehicles that the robot knows.
 
-    def __init__(self, database: Database) -> None:
+    Args:
+        database: Where they are kept.
+        key: Signs their labels.
+    """
+
+    def __init__(self, database: Database, key: LabelKey) -> None:
         self._database = database
+        self._key = key
 
     async def all(self) -> list[Vehicle]:
         """All vehicles, by name."""
 
         def work(session: Session) -> list[Vehicle]:
-            return [_vehicle(row) for row in session.scalars(select(VehicleRow))]
+            return [self._vehicle(row) for row in session.scalars(select(VehicleRow))]
 
         return sorted(await self._database.run(work), key=lambda v: (v.name.casefold(), v.id))
 
@@ -32,7 +36,7 @@ class VehicleStore:
 
         def work(session: Session) -> Vehicle | None:
             row = session.get(VehicleRow, vehicle_id)
-            return None if row is None else _vehicle(row)
+            return None if row is None else self._vehicle(row)
 
         return await self._database.run(work)
 
@@ -44,7 +48,7 @@ class VehicleStore:
             row = session.merge(
                 VehicleRow(id=vehicle_id, settings=settings.model_dump(mode="json"))
             )
-            return _vehicle(row), is_new
+            return self._vehicle(row), is_new
 
         return await self._database.run(work)
 
@@ -60,6 +64,6 @@ class VehicleStore:
 
         return await self._database.run(work)
 
-
-def _vehicle(row: VehicleRow) -> Vehicle:
-    return Vehicle(id=row.id, label_payload=f"{PAYLOAD_PREFIX}{row.id}", **row.settings)
+    def _vehicle(self, row: VehicleRow) -> Vehicle:
+        text = label_text(row.id, self._key)
+        return Vehicle(id=row.id, label_payload=text, **row.settings)

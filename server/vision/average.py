@@ -17,7 +17,7 @@ class CommonErrors:
 
     They come from the light and from the place of the edges on the pixel grid, which do not
     change while nothing moves. Standard deviations; about four times what is left in rendered
-    pictures (tests.bench.locate), because real light is less even.
+    pictures (tests.bench.vision), because real light is less even.
 
     Attributes:
         rotation_rad: About each axis.
@@ -36,7 +36,11 @@ class CommonErrors:
         return np.diag(np.square(sigma))
 
 
-def combine(poses: Sequence[LabelPose], common: CommonErrors | None = None) -> LabelPose:
+def combine(
+    poses: Sequence[LabelPose],
+    common: CommonErrors | None = None,
+    calibration: Array | None = None,
+) -> LabelPose:
     """Average poses by their information (inverse covariances).
 
     The rotations are averaged in the tangent space of the first, which is exact enough for
@@ -46,6 +50,8 @@ def combine(poses: Sequence[LabelPose], common: CommonErrors | None = None) -> L
     Args:
         poses: Of the same label at standstill in the same camera.
         common: What averaging cannot remove; added to the covariance once.
+        calibration: Covariance of what a wrong calibration does to all of them, shape (6, 6), as
+            ``CalibrationErrors`` gives it; left out where poses are compared with a taught one.
 
     Raises:
         ValueError: there is no pose, or the poses are of different labels.
@@ -66,6 +72,8 @@ def combine(poses: Sequence[LabelPose], common: CommonErrors | None = None) -> L
         chi2 = float(np.einsum("ni,nij,nj->", scatter, information, scatter))
         covariance = covariance * max(1.0, chi2 / (6 * (len(poses) - 1)))
     covariance = covariance + (common or CommonErrors()).covariance
+    if calibration is not None:
+        covariance = covariance + calibration
     counts = np.array([pose.edge_count for pose in poses])
     edges_only = all(pose.source is PoseSource.EDGES for pose in poses)
     return LabelPose(

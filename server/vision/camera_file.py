@@ -14,6 +14,8 @@ from server.vision.errors import InvalidCameraFileError
 def load_camera_file(path: Path) -> CameraModel:
     """Read width, height, fx, fy, cx, cy and the distortion k1, k2, p1, p2, k3 (0 if missing).
 
+    A table [calibration], which says where the numbers come from, is passed over.
+
     Raises:
         InvalidCameraFileError: the file is missing, is not TOML, lacks a key or has a wrong one.
     """
@@ -25,6 +27,7 @@ def load_camera_file(path: Path) -> CameraModel:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         detail = f"The camera file {path} is not TOML: {error}."
         raise InvalidCameraFileError(detail) from error
+    content.pop("calibration", None)
     try:
         return CameraModel.model_validate(content)
     except ValidationError as error:

@@ -10,6 +10,7 @@ the camera frame, tau [mm] shifts it along the axes of the camera frame.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import cv2
@@ -20,19 +21,52 @@ from drivers.camera import CameraModel
 
 Array = NDArray[np.float64]
 
+_NEWTON_STEPS = 8
 
-class Projection(NamedTuple):
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Projection:
     """Points of the label seen in the picture.
 
     Attributes:
         pixels: Where they appear, shape (n, 2) [px].
         by_point: Derivative of the pixel by the point in the camera frame, (n, 2, 3) [px/mm].
-        by_pose: Derivative of the pixel by (omega, tau), shape (n, 2, 6) [px/rad, px/mm].
+        lever: Points turned into the camera frame, before the shift, shape (n, 3) [mm].
     """
 
     pixels: Array
     by_point: Array
-    by_pose: Array
+    lever: Array
+
+    @property
+    def by_pose(self) -> Array:
+        """Derivative of the pixel by (omega, tau), shape (n, 2, 6) [px/rad, px/mm]."""
+        both = [_by_pose(self.lever, self.by_point[:, row]) for row in (0, 1)]
+        return np.stack(both, axis=1)
+
+    def by_pose_along(self, direction: Array) -> Array:
+        """Derivative by (omega, tau) of the pixel's place along a direction, shape (n, 6).
+
+        Args:
+            direction: Unit vectors in the picture, shape (n, 2).
+        """
+        gradient = direction[:, :1] * self.by_point[:, 0] + direction[:, 1:] * self.by_point[:, 1]
+        return _by_pose(self.lever, gradient)
+
+
+def _by_pose(lever: Array, gradient: Array) -> Array:
+    """Derivative by (omega, tau) of something whose derivative by the point is known, (n, 6).
+
+    d(exp([omega]x) q)/d omega = -[q]x, so the gradient g turns into q x g.
+    """
+    x, y, z = lever.T
+    a, b, c = gradient.T
+    derivative = np.empty((6, len(lever)))  # long rows are quicker than long columns
+    derivative[0] = y * c - z * b
+    derivative[1] = z * a - x * c
+    derivative[2] = x * b - y * a
+    derivative[3:] = gradient.T
+    return derivative.T
 
 
 def project(camera: CameraModel, T_camera_label: Array, points_mm: Array) -> Projection:
@@ -43,35 +77,50 @@ def project(camera: CameraModel, T_camera_label: Array, points_mm: Array) -> Pro
         T_camera_label: Pose, shape (4, 4), translation [mm].
         points_mm: Label coordinates, shape (n, 2) in the label's plane or (n, 3) [mm].
     """
-    rotated = points_mm @ T_camera_label[:3, : points_mm.shape[1]].T
-    in_camera = rotated + T_camera_label[:3, 3]
-    depth = in_camera[:, 2]
-    x, y = in_camera[:, 0] / depth, in_camera[:, 1] / depth
+    lever = points_mm @ T_camera_label[:3, : points_mm.shape[1]].T
+    in_camera = lever + T_camera_label[:3, 3]
+    nearness = 1 / in_camera[:, 2]
+    x, y = in_camera[:, 0] * nearness, in_camera[:, 1] * nearness
 
+    seen = _distorted(camera, x, y)
+    pixels = np.empty((len(x), 2))
+    pixels[:, 0] = camera.fx * seen.x + camera.cx
+    pixels[:, 1] = camera.fy * seen.y + camera.cy
+    rows = (
+        (camera.fx * seen.x_by_x, camera.fx * seen.mixed),
+        (camera.fy * seen.mixed, camera.fy * seen.y_by_y),
+    )
+    by_point = np.empty((len(x), 2, 3))
+    for row, (by_x, by_y) in enumerate(rows):
+        by_point[:, row, 0] = by_x * nearness
+        by_point[:, row, 1] = by_y * nearness
+        by_point[:, row, 2] = -(by_x * x + by_y * y) * nearness
+    return Projection(pixels, by_point, lever)
+
+
+class _Distorted(NamedTuple):
+    """Distorted coordinates and their derivatives; those across are equal: mixed."""
+
+    x: Array
+    y: Array
+    x_by_x: Array
+    mixed: Array
+    y_by_y: Array
+
+
+def _distorted(camera: CameraModel, x: Array, y: Array) -> _Distorted:
     r2 = x * x + y * y
     radial = 1 + r2 * (camera.k1 + r2 * (camera.k2 + r2 * camera.k3))
     slope = 2 * (camera.k1 + r2 * (2 * camera.k2 + r2 * 3 * camera.k3))  # d radial / d r2, times 2
     p1, p2 = camera.p1, camera.p2
-    x_d = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
-    y_d = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
-    pixels = np.column_stack((camera.fx * x_d + camera.cx, camera.fy * y_d + camera.cy))
-
-    du_dx = camera.fx * (radial + x * x * slope + 2 * p1 * y + 6 * p2 * x)
-    du_dy = camera.fx * (x * y * slope + 2 * p1 * x + 2 * p2 * y)
-    dv_dx = camera.fy * (x * y * slope + 2 * p1 * x + 2 * p2 * y)
-    dv_dy = camera.fy * (radial + y * y * slope + 6 * p1 * y + 2 * p2 * x)
-
-    by_point = np.empty((len(x), 2, 3))
-    for row, (by_x, by_y) in enumerate(((du_dx, du_dy), (dv_dx, dv_dy))):
-        by_point[:, row, 0] = by_x / depth
-        by_point[:, row, 1] = by_y / depth
-        by_point[:, row, 2] = -(by_x * x + by_y * y) / depth
-
-    by_pose = np.empty((len(x), 2, 6))
-    # d(exp([omega]x) q)/d omega = -[q]x, so row g of by_point turns into q x g.
-    by_pose[:, :, :3] = np.cross(rotated[:, None, :], by_point)
-    by_pose[:, :, 3:] = by_point
-    return Projection(pixels, by_point, by_pose)
+    xy = x * y
+    return _Distorted(
+        x=x * radial + 2 * p1 * xy + p2 * (r2 + 2 * x * x),
+        y=y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * xy,
+        x_by_x=radial + x * x * slope + 2 * p1 * y + 6 * p2 * x,
+        mixed=xy * slope + 2 * (p1 * x + p2 * y),
+        y_by_y=radial + y * y * slope + 6 * p1 * y + 2 * p2 * x,
+    )
 
 
 def undistort(camera: CameraModel, pixels: Array) -> Array:
@@ -84,10 +133,17 @@ def undistort(camera: CameraModel, pixels: Array) -> Array:
     Returns:
         Normalised x and y, shape (n, 2), exact to far below a thousandth of a pixel.
     """
-    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-12)
-    points = np.ascontiguousarray(pixels, dtype=np.float64).reshape(-1, 1, 2)
-    rays = cv2.undistortPoints(points, camera.matrix, camera.distortion, criteria=criteria)
-    return np.asarray(rays, dtype=np.float64).reshape(-1, 2)
+    # Newton's method. OpenCV's own takes its stopping rule in one way in version 4 and in
+    # another in version 5, and its default is not exact for strong distortion.
+    wanted = (pixels - (camera.cx, camera.cy)) / (camera.fx, camera.fy)
+    x, y = wanted[:, 0].copy(), wanted[:, 1].copy()
+    for _ in range(_NEWTON_STEPS):
+        seen = _distorted(camera, x, y)
+        off_x, off_y = seen.x - wanted[:, 0], seen.y - wanted[:, 1]
+        determinant = seen.x_by_x * seen.y_by_y - seen.mixed**2
+        x -= (seen.y_by_y * off_x - seen.mixed * off_y) / determinant
+        y -= (seen.x_by_x * off_y - seen.mixed * off_x) / determinant
+    return np.column_stack((x, y))
 
 
 def perturbed(T_camera_label: Array, delta: Array) -> Array:

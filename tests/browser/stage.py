@@ -26,8 +26,8 @@ BEAT_S = 0.1
 
 VEHICLES = VehicleList(
     items=[
-        Vehicle(id="id3", name="Volkswagen ID.3", label_payload="PLUGPILOT:1:id3"),
-        Vehicle(id="zoe", name="Renault Zoe", label_payload="PLUGPILOT:1:zoe"),
+        Vehicle(id="id3", name="Volkswagen ID.3", label_payload="PP2:id3:AAAAAAAAAA"),
+        Vehicle(id="zoe", name="Renault Zoe", label_payload="PP2:zoe:AAAAAAAAAA"),
     ]
 )
 

@@ -1,6 +1,5 @@
-"""The simulated camera: renders what a real one would see, when a real one would see it."""
+"""The simulated camera: renders what a real one would see, when a real one would see it.
 
-from drivers.simulator.camera.camera import SimulatedCamera
-from drivers.simulator.camera.imaging import CameraFault, ImagingParameters
-
-__all__ = ["CameraFault", "ImagingParameters", "SimulatedCamera"]
+``camera`` holds the driver, ``imaging`` and ``conditions`` its numbers. Nothing is imported here,
+so that reading a configuration does not load the renderer.
+"""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from drivers.camera import CameraModel
 
@@ -19,31 +19,42 @@ class CameraFault(StrEnum):
 
     NONE = "none"
     UNPLUGGED = "unplugged"
-    """The driver reports an error at once."""
+    """CameraMissingError at once, until it is plugged in again."""
 
     STALLED = "stalled"
-    """No frame arrives any more."""
+    """No frame arrives any more: CameraTimeoutError after a second."""
 
     FROZEN = "frozen"
-    """Frames keep coming with new times and numbers, but always the same picture."""
+    """Frames keep coming with new times and numbers, but always the same picture; after ten of
+    them CameraFrozenError, as from a real camera."""
 
     DARK = "dark"
     """No light: a covered lens, or night without a lamp."""
+
+    OVEREXPOSED = "overexposed"
+    """Far too much light: the sun in the lens."""
+
+    WRONG_RESOLUTION = "wrong_resolution"
+    """Another program has switched the camera to another mode: WrongResolutionError."""
 
 
 class ImagingParameters(BaseModel):
     """Exposure, blur, light and noise. The defaults describe a Raspberry Pi camera v2.
 
-    Lens and sensor: focal length 3.04 mm, f/2.0, 1640 x 1232 binned pixels. Light, noise and
-    reflectances are this project's own choice for a garage with a lamp.
+    Lens and sensor: focal length 3.04 mm, f/2.0, 1640 x 1232 binned pixels whose rows are read
+    one after the other every 18.9 us. Light, noise and reflectances are this project's own choice
+    for a garage with a lamp.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     frames_per_s: Positive = 30.0
     exposure_s: Positive = 0.008
+    readout_s: float = Field(
+        0.0233, ge=0, le=1, description="from the first row's read-out to the last one's"
+    )
     latency_s: float = Field(
-        0.045, ge=0, le=1, description="from the end of exposure to the delivered frame"
+        0.022, ge=0, le=1, description="from the last row's read-out to the delivered frame"
     )
 
     focus_distance_mm: Positive = 360.0
@@ -64,19 +75,43 @@ class ImagingParameters(BaseModel):
     )
     full_well_electrons: Positive = 10_000.0
     read_noise_electrons: float = Field(6.0, ge=0, allow_inf_nan=False)
-    target_white: Share = Field(0.75, description="linear output the automatic gain aims at")
+    target_white: Share = Field(0.75, description="linear output that exposure and gain aim at")
     most_gain: float = Field(16.0, ge=1, le=256)
     gamma: Positive = 2.2
 
-    def blur_px(self, distance_mm: float, optics: CameraModel) -> float:
-        """Standard deviation of the blur of a point at a distance from the lens [px].
+    automatic_exposure: bool = Field(
+        default=False,
+        description="exposure and gain follow the light; otherwise they stay as set for ambient",
+    )
+    shortest_exposure_s: Positive = 0.0002
+    longest_exposure_s: Positive = Field(0.03, description="of the automatic exposure")
+    exposure_step_stops: Positive = Field(0.25, description="the automatic exposure's resolution")
+    exposure_most_stops: Positive = Field(1.0, description="its largest change at a time")
+    exposure_period_frames: int = Field(4, ge=1, le=100, description="frames between its changes")
+    exposure_delay_frames: int = Field(
+        3, ge=0, le=100, description="age of the frame whose brightness it acts upon"
+    )
 
-        The blur disc of a thin lens has the diameter f^2 / N |1/d - 1/d_focus| on the sensor;
-        a disc of diameter D has the variance D^2 / 16 along each axis.
+    @model_validator(mode="after")
+    def _exposures_are_ordered(self) -> Self:
+        if self.shortest_exposure_s > self.longest_exposure_s:
+            raise ValueError("shortest_exposure_s must not exceed longest_exposure_s")
+        return self
+
+    def disc_px(self, distance_mm: float, optics: CameraModel) -> float:
+        """Diameter of the circle of confusion of a point at a distance from the lens [px].
+
+        A thin lens of focal length f and aperture A = f / N, focused at d_f, spreads a point at d
+        over a disc of diameter c = A f |d - d_f| / (d (d_f - f)) on the sensor.
         """
-        pixels_per_mm = optics.fx / self.focal_length_mm
-        aperture_mm = self.focal_length_mm / self.f_number
-        disc_mm = (
-            aperture_mm * self.focal_length_mm * abs(1 / distance_mm - 1 / self.focus_distance_mm)
-        )
-        return math.hypot(self.lens_blur_px, disc_mm * pixels_per_mm / 4)
+        focal_mm, focus_mm = self.focal_length_mm, self.focus_distance_mm
+        aperture_mm = focal_mm / self.f_number
+        beside_focus = abs(distance_mm - focus_mm) / (distance_mm * (focus_mm - focal_mm))
+        return aperture_mm * focal_mm * beside_focus * optics.fx / focal_mm
+
+    def blur_px(self, distance_mm: float, optics: CameraModel) -> float:
+        """Standard deviation of the whole blur of a point at a distance from the lens [px].
+
+        A disc of diameter c has the variance c^2 / 16 along each axis.
+        """
+        return math.hypot(self.lens_blur_px, self.disc_px(distance_mm, optics) / 4)

@@ -1,4 +1,4 @@
-"""The robot's own plug in the picture: a dark cylinder that hides what is behind it."""
+"""The robot's own plug in the picture: a dark cylinder with a sheen, which hides what is behind."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from drivers.simulator.view import Pose
 PLUG_DIAMETER_MM = 65.0
 PLUG_LENGTH_MM = 300.0
 PLUG_REFLECTANCE = 0.035
+_SHEEN_REFLECTANCE = 0.12
+_SHEEN_FROM_TO = (-2.75, -2.15)  # around the cylinder, from its x towards its y: up on the left
+_SHEEN_BLUR_MM = 5.0
 _NEAREST_MM = 25.0
 _FRACTION_BITS = 6
 
@@ -33,7 +36,9 @@ def draw_plug(
         T_camera_socket: Pose of the socket's face, shape (4, 4) [mm].
         sigma_px: Standard deviation of the plug's blur.
     """
-    outline = _outline(optics, T_camera_plug, _inserted_mm(T_camera_plug, T_camera_socket))
+    inserted_mm = _inserted_mm(T_camera_plug, T_camera_socket)
+    visible_mm = (inserted_mm, PLUG_LENGTH_MM)
+    outline = _outline(optics, T_camera_plug, visible_mm, (0.0, 2 * np.pi))
     if outline is None:
         return
     margin = int(np.ceil(3.5 * sigma_px)) + 2
@@ -42,12 +47,34 @@ def draw_plug(
     high = np.minimum(np.ceil(outline.max(axis=0)).astype(int) + margin + 1, size)
     if np.any(low >= high):
         return
-    mask = np.zeros((high[1] - low[1], high[0] - low[0]), dtype=np.uint8)
-    polygon = np.round((outline - low) * 2**_FRACTION_BITS).astype(np.int32)
-    cv2.fillConvexPoly(mask, polygon, (255,), cv2.LINE_AA, _FRACTION_BITS)
-    soft = cv2.GaussianBlur(mask, (0, 0), sigma_px)
+    shape = (int(high[1] - low[1]), int(high[0] - low[0]))
+    shade = np.full(shape, PLUG_REFLECTANCE, dtype=np.float32)
+    sheen = _outline(optics, T_camera_plug, visible_mm, _SHEEN_FROM_TO)
+    if sheen is not None:
+        px_per_mm = optics.fx / max(float(T_camera_plug[2, 3]), _NEAREST_MM)
+        soft = _soft_mask(sheen - low, shape, max(_SHEEN_BLUR_MM * px_per_mm, sigma_px))
+        shade += soft * np.float32(_SHEEN_REFLECTANCE - PLUG_REFLECTANCE)
     below = canvas[low[1] : high[1], low[0] : high[0]]
-    below += np.multiply(soft, np.float32(1 / 255), dtype=np.float32) * (PLUG_REFLECTANCE - below)
+    below += _soft_mask(outline - low, shape, sigma_px) * (shade - below)
+
+
+def _soft_mask(polygon: NDArray[np.float64], shape: tuple[int, int], sigma_px: float) -> Canvas:
+    """1 in a polygon [px], 0 outside, with a soft edge.
+
+    A wide blur is worked out on a coarser mask, whose pixels it hides.
+    """
+    factor = int(np.clip(sigma_px / 4, 1, 16))
+    small = (-(-shape[0] // factor), -(-shape[1] // factor))
+    corners = (polygon + 0.5) / factor - 0.5
+    mask = np.zeros(small, dtype=np.uint8)
+    fixed = np.round(corners * 2**_FRACTION_BITS).astype(np.int32)
+    cv2.fillConvexPoly(mask, fixed, (255,), cv2.LINE_AA, _FRACTION_BITS)
+    soft = np.asarray(cv2.GaussianBlur(mask, (0, 0), sigma_px / factor), dtype=np.float32)
+    soft *= np.float32(1 / 255)
+    if factor > 1:
+        large = cv2.resize(soft, (small[1] * factor, small[0] * factor))
+        soft = np.asarray(large[: shape[0], : shape[1]], dtype=np.float32)
+    return soft
 
 
 def _inserted_mm(T_camera_plug: Pose, T_camera_socket: Pose) -> float:
@@ -59,14 +86,23 @@ def _inserted_mm(T_camera_plug: Pose, T_camera_socket: Pose) -> float:
 
 
 def _outline(
-    optics: CameraModel, T_camera_plug: Pose, inserted_mm: float
+    optics: CameraModel,
+    T_camera_plug: Pose,
+    along_mm: tuple[float, float],
+    around: tuple[float, float],
 ) -> NDArray[np.float64] | None:
-    """Convex outline of the cylinder in the picture, shape (n, 2) [px]; None behind the camera."""
-    angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
-    back = np.linspace(inserted_mm, PLUG_LENGTH_MM, 24)
+    """Convex outline of a part of the cylinder, shape (n, 2) [px]; None behind the camera.
+
+    Args:
+        optics: The camera.
+        T_camera_plug: Pose of the tip.
+        along_mm: From here to there, from the tip backwards.
+        around: From this angle to that one.
+    """
+    angles = np.linspace(*around, 48)
     rim = PLUG_DIAMETER_MM / 2 * np.column_stack((np.cos(angles), np.sin(angles)))
     points = np.concatenate(
-        [np.column_stack((rim, np.full(len(rim), -distance))) for distance in back]
+        [np.column_stack((rim, np.full(len(rim), -back))) for back in np.linspace(*along_mm, 24)]
     )
     in_camera = points @ T_camera_plug[:3, :3].T + T_camera_plug[:3, 3]
     in_camera = in_camera[in_camera[:, 2] > _NEAREST_MM]

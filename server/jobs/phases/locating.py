@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from server.jobs.approach import pre_insertion
 from server.jobs.context import JobContext
 from server.jobs.errors import SocketTooSkewedError
 from server.jobs.model import JobPhase
+from server.labels.recognise import why_not_the_label
 from server.localisation.errors import LabelNotFoundError
+from server.localisation.eye import Refusal
 from server.localisation.looks import Look, LookPlanner
 from server.localisation.socket_pose import SocketPose
+from server.schema.vehicles import Vehicle
+from server.vision.errors import NoCodeError, WrongPayloadError
 from twin.joints import JointPosition, TipPosition
 from twin.kinematics import gamma
 
@@ -62,6 +67,7 @@ async def _search(job: JobContext) -> SocketPose:
     socket = await job.eye.look(vehicle)
     if socket is not None:
         return socket
+    refusals = [job.eye.refusal]
     planner = LookPlanner(
         job.supervisor.geometry,
         job.eye.mount,
@@ -78,6 +84,7 @@ async def _search(job: JobContext) -> SocketPose:
         if math.dist((look.x_mm, look.y_mm), here) > HERE_MM:
             await job.supervisor.move_joints(job.lease, target)
             socket = await job.eye.look(vehicle)
+            refusals.append(job.eye.refusal)
             looks += 1
             await job.journal.note(
                 "look",
@@ -88,12 +95,24 @@ async def _search(job: JobContext) -> SocketPose:
             )
             if socket is not None:
                 return socket
+    instead = _what_was_there(refusals, vehicle)
     raise LabelNotFoundError(
         f"The label of {vehicle.name} was in none of {looks} pictures "
-        "that together show every place where it may be.",
+        f"that together show every place where it may be.{' ' if instead else ''}{instead}",
         looks=looks,
         payload=vehicle.label_payload,
     )
+
+
+def _what_was_there(refusals: Sequence[Refusal | None], vehicle: Vehicle) -> str:
+    """What the most telling picture showed instead; "" when all showed nothing."""
+    telling = [refusal for refusal in refusals if type(refusal) not in {type(None), NoCodeError}]
+    if not telling:
+        return ""
+    refusal = telling[0]
+    if isinstance(refusal, WrongPayloadError):
+        return why_not_the_label(refusal.context["found"], vehicle.label_payload)
+    return "" if refusal is None else refusal.detail
 
 
 def _joints_at(job: JobContext, look: Look) -> JointPosition:

@@ -58,7 +58,7 @@ def test_before_the_socket_the_label_is_in_the_middle_of_the_picture() -> None:
     assert socket == pytest.approx((120.0, 0.0, 0.0), abs=1e-9)
     plug = np.linalg.inv(view.T_camera_plug) @ view.T_camera_socket
     assert plug[:3, 3] == pytest.approx((0.0, 0.0, 8.0), abs=0.1)
-    assert view.payload == "PLUGPILOT:1:demo"
+    assert view.payload == "demo"
     assert view.label_size_mm == 60.0
 
 
@@ -141,7 +141,7 @@ def test_the_pictures_show_a_decodable_label_and_none_when_it_is_covered() -> No
         return read(shown), read(hidden)
 
     shown, hidden = on_stand(scenario, HOMED)
-    assert shown == ["PLUGPILOT:1:demo"]
+    assert shown == ["demo"]
     assert hidden == []
 
 

@@ -17,7 +17,7 @@ def test_add_change_read_forget() -> None:
         assert added.status_code == 201
         vehicle = Vehicle.model_validate_json(added.content)
         assert vehicle.id == "zoe"
-        assert vehicle.label_payload == "PLUGPILOT:1:zoe"
+        assert vehicle.label_payload.startswith("PP2:zoe:")
         assert vehicle.socket.x_mm == 118.5
         assert vehicle.socket.z_mm == 0.0
         changed = await client.put("vehicles/zoe", json={**ZOE, "name": "Amelie"})

@@ -12,6 +12,7 @@ from sqlalchemy import text
 from sqlalchemy.orm import Session
 
 from server.jobs.model import JobPhase, JobState, JobType
+from server.labels.payload import LabelKey
 from server.schema.jobs import Job, JobEvent, JobResult
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.storage.database import FILE_NAME, SCHEMA_VERSION, Database
@@ -299,10 +300,10 @@ def test_vehicles_are_added_changed_sorted_and_forgotten() -> None:
 
     async def scenario() -> None:
         database = await opened(None)
-        vehicles = VehicleStore(database)
+        vehicles = VehicleStore(database, LabelKey(bytes(range(32))))
         zoe, is_new = await vehicles.put("zoe", settings("Zoe"))
         assert is_new
-        assert zoe.label_payload == "PLUGPILOT:1:zoe"
+        assert zoe.label_payload == "PP2:zoe:4NG43RRFJW"
         await vehicles.put("b", settings("anna's car"))
         again, is_new = await vehicles.put("zoe", settings("Abel"))
         assert not is_new

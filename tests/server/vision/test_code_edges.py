@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from server.vision.code_edges import MOST_EDGES, code_edges
+from server.vision.fitting.code_edges import MOST_EDGES, MOST_PIECES, code_edges
 from twin.qr_label import label_modules
 
 
@@ -13,7 +14,11 @@ def test_a_single_black_module_has_four_edges_that_point_outwards() -> None:
     modules[0, 2] = True  # top right: x in 10..30, y in -30..-10
     edges = code_edges(modules, 60.0)
     assert edges.module_mm == 20.0
-    found = {(tuple(p), tuple(n)) for p, n in zip(edges.points_mm, edges.normals, strict=True)}
+    # Few sides are cut into pieces, which lie around the side's middle.
+    sides = edges.points_mm.reshape(4, MOST_PIECES, 2)
+    assert np.ptp(sides, axis=1).max() == pytest.approx(edges.length_mm * (MOST_PIECES - 1))
+    middles, normals = sides.mean(axis=1), edges.normals[::MOST_PIECES]
+    found = {(tuple(p.round(9)), tuple(n)) for p, n in zip(middles, normals, strict=True)}
     assert found == {
         ((10.0, -20.0), (-1.0, 0.0)),
         ((30.0, -20.0), (1.0, 0.0)),

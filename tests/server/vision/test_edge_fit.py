@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from drivers.camera import CameraModel
-from server.vision.bit_agreement import bit_agreement
-from server.vision.code_edges import code_edges
-from server.vision.edge_fit import fit_edges
+from server.vision.fitting.bit_agreement import bit_agreement
+from server.vision.fitting.code_edges import code_edges
+from server.vision.fitting.edge_fit import fit_edges
 from server.vision.projection import Array, perturbed
 from tests.server.vision.pictures import (
     OPTICS,

@@ -13,7 +13,10 @@ from click.testing import CliRunner
 from numpy.typing import NDArray
 
 from server.cli.locate import locate
+from server.vision.markers.april_tags import tag_modules
+from tests.server.vision.label_shots import CAMERA, PLACE, shot_of
 from tests.server.vision.pictures import OPTICS, PAYLOAD, picture, pose, pose_error, view
+from tests.support.label_prints import printed
 
 TRUE = pose((3.0, -4.0, 290.0), (1.0, -1.5, 180.0))
 FIELDS = {
@@ -118,6 +121,41 @@ def test_only_the_wanted_text_is_accepted(camera_file: Path, label_file: Path) -
     (line,) = run(camera_file, label_file, "--payload", "another", status=1)
     assert line["error"]["code"] == "wrong_payload"
     assert run(camera_file, label_file, "--payload", PAYLOAD)[0]["error"] is None
+
+
+def test_a_tag_is_located_when_asked_for(tmp_path: Path) -> None:
+    camera = tmp_path / "small.toml"
+    lines = [f"{key} = {value!r}" for key, value in CAMERA.model_dump().items()]
+    camera.write_text("\n".join(lines), encoding="utf-8")
+    label = printed(tag_modules("tag36h11:4"), 60.0)
+    file = saved(tmp_path / "tag.png", shot_of(label))
+    assert run(camera, file, status=1)[0]["error"]["code"] == "no_code"
+    (line,) = run(camera, file, "--marker", "apriltag")
+    assert line["payload"] == "tag36h11:4"
+    translation = line["T_camera_label"]["translation_mm"]
+    np.testing.assert_allclose(translation, PLACE[:3, 3], atol=0.05)
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [(b"", "image_unreadable"), (b"\xff\xd8\xff\xe0broken", "image_unreadable")],
+)
+def test_an_empty_or_broken_file_is_told(
+    camera_file: Path, tmp_path: Path, content: bytes, code: str
+) -> None:
+    file = tmp_path / "broken.jpg"
+    file.write_bytes(content)
+    assert run(camera_file, file, status=1)[0]["error"]["code"] == code
+
+
+def test_pictures_without_light_or_with_too_much_are_told(
+    camera_file: Path, tmp_path: Path
+) -> None:
+    dark = saved(tmp_path / "dark.png", np.full((1232, 1640), 3, dtype=np.uint8))
+    bright = saved(tmp_path / "bright.png", np.full((1232, 1640), 255, dtype=np.uint8))
+    lines = run(camera_file, dark, bright, status=1)
+    codes = [line["error"]["code"] for line in lines]
+    assert codes == ["picture_too_dark", "picture_too_bright"]
 
 
 def test_a_person_gets_a_readable_line(camera_file: Path, label_file: Path, tmp_path: Path) -> None:

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from drivers.camera import CameraModel
+from server.vision.fitting.start_pose import corners_mm
 from server.vision.locator import Locator
 from server.vision.projection import Array, project
-from server.vision.start_pose import corners_mm
 from tests.server.vision.pictures import PAYLOAD, SIZE_MM, ideal_picture, pose, pose_error
 from twin.qr_label import label_modules
 

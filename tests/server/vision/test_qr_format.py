@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import segno
 
-from server.vision.qr_format import is_mirrored
+from server.vision.markers.qr_format import is_mirrored
 
 
 @pytest.mark.parametrize("version", [1, 2, 7, 25])

@@ -1360,7 +1360,7 @@ export interface components {
             /**
              * Label Payload
              * @description Text in its QR label
-             * @example PLUGPILOT:1:zoe
+             * @example PP2:zoe:4NG43RRFJW
              */
             readonly label_payload: string;
             /**

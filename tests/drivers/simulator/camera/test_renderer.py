@@ -11,42 +11,14 @@ from drivers.camera import CameraModel, pi_camera_v2
 from drivers.simulator.camera.imaging import ImagingParameters
 from drivers.simulator.camera.renderer import Renderer
 from drivers.simulator.camera.scene import SceneRenderer
-from drivers.simulator.view import CameraView
+from tests.drivers.simulator.camera.scenes import PAYLOAD, SIZE_MM, pose, view
 from twin.qr_label import label_modules
 
-PAYLOAD = "PLUGPILOT:1:7F3K22Q9"
-SIZE_MM = 60.0
 OPTICS = CameraModel(
     width=300, height=260, fx=420.0, fy=425.0, cx=151.3, cy=127.8,
     k1=-0.12, k2=0.05, p1=1e-3, p2=-5e-4,
 )  # fmt: skip
-IN_FOCUS = ImagingParameters(focus_distance_mm=250.0, lens_blur_px=0.9)
-
-
-def pose(x: float, y: float, z: float, turn: tuple[float, float, float]) -> NDArray[np.float64]:
-    result = np.eye(4)
-    result[:3, :3] = cv2.Rodrigues(np.array(turn))[0]
-    result[:3, 3] = x, y, z
-    return result
-
-
-def view(
-    label: NDArray[np.float64],
-    velocity_mm_s: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    plug: NDArray[np.float64] | None = None,
-    socket_mm: tuple[float, float, float] = (120.0, 15.0, 0.0),
-) -> CameraView:
-    beside = np.eye(4)
-    beside[:3, 3] = socket_mm
-    away = pose(900.0, 0.0, 100.0, (0.0, 0.0, 0.0))
-    return CameraView(
-        T_camera_label=label,
-        T_camera_socket=label @ beside,
-        T_camera_plug=away if plug is None else plug,
-        label_velocity_mm_s=np.array(velocity_mm_s),
-        payload=PAYLOAD,
-        label_size_mm=SIZE_MM,
-    )
+IN_FOCUS = ImagingParameters(focus_distance_mm=250.0, lens_blur_px=0.9, readout_s=0.0)
 
 
 def brute_force(label: NDArray[np.float64], fineness: int) -> NDArray[np.float64]:
@@ -83,7 +55,7 @@ def brute_force(label: NDArray[np.float64], fineness: int) -> NDArray[np.float64
     ids=["head-on", "oblique"],
 )
 def test_a_label_looks_as_brute_force_says(label: NDArray[np.float64]) -> None:
-    canvas = SceneRenderer(OPTICS, IN_FOCUS).render(view(label))
+    canvas = SceneRenderer(OPTICS, IN_FOCUS).render(view(label)).canvas
     expected = brute_force(label, fineness=6)
     corners = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0.0)]) * SIZE_MM * 0.55
     turn = cv2.Rodrigues(label[:3, :3])[0]
@@ -103,8 +75,8 @@ def test_a_label_looks_as_brute_force_says(label: NDArray[np.float64]) -> None:
 def test_motion_smears_the_label_along_its_way_only() -> None:
     label = pose(0.0, 0.0, 250.0, (0.0, 0.0, 0.0))
     scene = SceneRenderer(OPTICS, IN_FOCUS)
-    still = scene.render(view(label)).copy()
-    moving = scene.render(view(label, velocity_mm_s=(400.0, 0.0, 0.0))).copy()
+    still = scene.render(view(label)).canvas.copy()
+    moving = scene.render(view(label, velocity_mm_s=(400.0, 0.0, 0.0))).canvas.copy()
     code = (slice(80, 176), slice(104, 200))
 
     def steepness(canvas: NDArray[np.float32], axis: int) -> float:
@@ -115,20 +87,12 @@ def test_motion_smears_the_label_along_its_way_only() -> None:
     assert moving[code].mean() == pytest.approx(still[code].mean(), abs=0.01)
 
 
-def test_blur_grows_away_from_the_focus_as_a_thin_lens_says() -> None:
-    optics, imaging = pi_camera_v2(), ImagingParameters()
-    assert imaging.blur_px(360.0, optics) == pytest.approx(0.55)
-    # f = 3.04 mm at f/2, 1359 px focal length: a disc of 12.98 px at 110 mm.
-    disc_px = 1.52 * 3.04 * (1 / 110 - 1 / 360) * optics.fx / 3.04
-    assert imaging.blur_px(110.0, optics) == pytest.approx(np.hypot(0.55, disc_px / 4))
-
-
 def test_the_plug_hides_the_label_behind_it() -> None:
     label = pose(0.0, 0.0, 300.0, (0.0, 0.0, 0.0))
     scene = SceneRenderer(OPTICS, IN_FOCUS)
     plug = pose(0.0, 0.0, 200.0, (0.0, 0.0, 0.0))
-    free = scene.render(view(label)).copy()
-    hidden = scene.render(view(label, plug=plug, socket_mm=(0.0, 0.0, 0.0))).copy()
+    free = scene.render(view(label)).canvas.copy()
+    hidden = scene.render(view(label, plug=plug, socket_mm=(0.0, 0.0, 0.0))).canvas.copy()
     assert free[118:138, 141:161].max() > 0.5
     assert hidden[118:138, 141:161].max() < 0.1
 
@@ -137,20 +101,25 @@ def test_an_inserted_plug_shows_no_further_than_the_face_of_the_socket() -> None
     """Its outline is that of a plug that only touches the face."""
     label = pose(-60.0, 0.0, 300.0, (0.0, 0.0, 0.0))
     scene = SceneRenderer(OPTICS, IN_FOCUS)
-    touching = scene.render(view(label, plug=pose(60.0, 15.0, 300.0, (0.0, 0.0, 0.0)))).copy()
-    inserted = scene.render(view(label, plug=pose(60.0, 15.0, 340.0, (0.0, 0.0, 0.0)))).copy()
+    touching = scene.render(
+        view(label, plug=pose(60.0, 15.0, 300.0, (0.0, 0.0, 0.0)))
+    ).canvas.copy()
+    inserted = scene.render(
+        view(label, plug=pose(60.0, 15.0, 340.0, (0.0, 0.0, 0.0)))
+    ).canvas.copy()
     np.testing.assert_allclose(inserted, touching, atol=0.05)
 
 
 def test_a_car_that_has_left_leaves_an_empty_garage() -> None:
     gone = view(pose(0.0, 0.0, 50_000.0, (0.0, 0.0, 0.0)))
-    canvas = SceneRenderer(OPTICS, IN_FOCUS).render(gone)
+    canvas = SceneRenderer(OPTICS, IN_FOCUS).render(gone).canvas
     assert float(np.ptp(canvas)) < 1e-6
 
 
 def test_a_label_partly_out_of_the_picture_is_cut_off() -> None:
     label = pose(85.0, -60.0, 250.0, (0.0, 0.0, 0.0))
-    whole = SceneRenderer(OPTICS, IN_FOCUS).render(view(label, socket_mm=(-300.0, 0.0, 0.0)))
+    beside = view(label, socket_mm=(-300.0, 0.0, 0.0))
+    whole = SceneRenderer(OPTICS, IN_FOCUS).render(beside).canvas
     assert whole[0:60, 260:].max() > 0.8
     assert whole[200:, :40].max() < 0.6
 
@@ -171,14 +140,22 @@ def test_noise_is_that_of_light_and_sensor() -> None:
     assert measured == pytest.approx(expected, rel=0.06)
 
 
-def test_the_gain_follows_the_light_up_to_its_limit() -> None:
-    scene = view(pose(0.0, 0.0, 250.0, (0.0, 0.0, 0.0)))
+def test_the_gain_is_set_for_the_usual_light_up_to_its_limit() -> None:
+    scene = view(pose(0.0, 0.0, 250.0))
     brightness = {}
     for ambient in (1.0, 0.4, 0.02):
         imaging = IN_FOCUS.model_copy(update={"ambient": ambient})
         brightness[ambient] = np.percentile(Renderer(OPTICS, imaging, 1).picture(scene, 0), 98)
     assert brightness[0.4] == pytest.approx(brightness[1.0], abs=6)
     assert brightness[0.02] < brightness[1.0] - 60
+
+
+def test_a_fixed_exposure_does_not_follow_the_light() -> None:
+    renderer, scene = Renderer(OPTICS, IN_FOCUS, 1), view(pose(0.0, 0.0, 250.0))
+    usual, half = renderer.picture(scene, 0), renderer.picture(scene, 0, light=0.5)
+    white = (slice(68, 74), slice(110, 190))
+    expected = usual[white].mean() * 0.5 ** (1 / IN_FOCUS.gamma)
+    assert half[white].mean() == pytest.approx(expected, rel=0.01)
 
 
 def test_edges_of_the_picture_are_darker_than_its_middle() -> None:

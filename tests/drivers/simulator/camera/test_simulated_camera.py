@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 
 from drivers.camera import CameraDriver, CameraError, CameraModel, CameraTimeoutError
-from drivers.simulator.camera import CameraFault, ImagingParameters, SimulatedCamera
+from drivers.camera.errors import CameraFrozenError, CameraMissingError, WrongResolutionError
+from drivers.simulator.camera.camera import SimulatedCamera
+from drivers.simulator.camera.imaging import CameraFault, ImagingParameters
 from drivers.simulator.view import CameraView
 from server.timing import VirtualTimeLoop
 
 OPTICS = CameraModel(width=320, height=240, fx=265.0, fy=265.0, cx=159.5, cy=119.5)
-IMAGING = ImagingParameters(frames_per_s=25.0, exposure_s=0.008, latency_s=0.045)
+IMAGING = ImagingParameters(frames_per_s=25.0, exposure_s=0.008, readout_s=0.02, latency_s=0.025)
 
 
 class Garage:
@@ -54,7 +56,7 @@ def test_it_is_a_camera_driver() -> None:
     assert driver.name
 
 
-def test_a_frame_shows_the_middle_of_its_exposure_and_arrives_after_the_latency() -> None:
+def test_the_middle_row_sees_the_time_of_the_frame_which_arrives_after_the_latency() -> None:
     async def scenario() -> None:
         garage = Garage()
         driver = camera(garage)
@@ -62,9 +64,10 @@ def test_a_frame_shows_the_middle_of_its_exposure_and_arrives_after_the_latency(
         await driver.open()
         frame = await driver.frame()
         assert frame.sequence == 0
-        assert frame.captured_at_s == pytest.approx(3.004)
+        assert frame.captured_at_s == pytest.approx(3.014)
         assert now_s() == pytest.approx(3.053)
-        assert garage.asked_at_s == [frame.captured_at_s]
+        # the middle row, the first and the last: 20 ms of read-out lie between these
+        assert garage.asked_at_s == pytest.approx([3.014, 3.004, 3.024])
         assert frame.image.shape == (240, 320)
         assert frame.image.dtype == np.uint8
         assert not frame.image.flags.writeable
@@ -80,7 +83,7 @@ def test_only_frames_that_are_asked_for_are_rendered_and_the_gaps_are_counted() 
         first = await driver.frame()
         await asyncio.sleep(1.0)
         second = await driver.frame()
-        assert len(garage.asked_at_s) == 2
+        assert len(garage.asked_at_s) == 2 * 3
         assert second.sequence - first.sequence == 26
         assert second.captured_at_s - first.captured_at_s == pytest.approx(26 / 25)
 
@@ -95,7 +98,7 @@ def test_the_exposure_begins_after_the_instant_that_was_asked_for(delay_s: float
         await asyncio.sleep(1.0 + delay_s)
         asked_at_s = now_s()
         frame = await driver.frame(exposed_after_s=asked_at_s)
-        began_at_s = frame.captured_at_s - 0.004
+        began_at_s = frame.captured_at_s - 0.004 - 0.010
         assert asked_at_s - 1e-6 <= began_at_s < asked_at_s + 0.04 + 1e-6
         assert now_s() == pytest.approx(began_at_s + 0.053)
 
@@ -130,7 +133,7 @@ def test_two_who_wait_for_the_same_frame_get_the_same() -> None:
         await driver.open()
         one, other = await asyncio.gather(driver.frame(), driver.frame())
         assert one is other
-        assert len(garage.asked_at_s) == 1
+        assert len(garage.asked_at_s) == 3
 
     run(scenario)
 
@@ -189,12 +192,12 @@ def test_an_unplugged_camera_is_an_error_at_once_and_also_while_waiting() -> Non
         waiting = asyncio.ensure_future(driver.frame())
         await asyncio.sleep(0.01)
         driver.fault = CameraFault.UNPLUGGED
-        with pytest.raises(CameraError, match="unplugged"):
+        with pytest.raises(CameraMissingError, match="unplugged"):
             await waiting
-        with pytest.raises(CameraError, match="unplugged"):
+        with pytest.raises(CameraMissingError, match="unplugged"):
             await driver.frame()
         await driver.close()
-        with pytest.raises(CameraError, match="unplugged"):
+        with pytest.raises(CameraMissingError, match="unplugged"):
             await driver.open()
 
     run(scenario)
@@ -212,6 +215,64 @@ def test_a_frozen_camera_repeats_its_picture_under_new_numbers() -> None:
         assert frozen.image is alive.image
         driver.fault = CameraFault.NONE
         assert np.any((await driver.frame()).image != alive.image)
+
+    run(scenario)
+
+
+def test_the_tenth_equal_picture_is_an_error_until_the_picture_moves_again() -> None:
+    async def scenario() -> None:
+        driver = camera()
+        await driver.open()
+        await driver.frame()
+        driver.fault = CameraFault.FROZEN
+        for _ in range(8):
+            await driver.frame()
+        for _ in range(3):
+            with pytest.raises(CameraFrozenError, match="same picture 10 times"):
+                await driver.frame()
+        driver.fault = CameraFault.NONE
+        await driver.frame()
+        driver.fault = CameraFault.FROZEN
+        await driver.frame()
+
+    run(scenario)
+
+
+def test_another_mode_of_the_camera_is_told_by_its_resolution() -> None:
+    async def scenario() -> None:
+        driver = camera()
+        await driver.open()
+        driver.fault = CameraFault.WRONG_RESOLUTION
+        with pytest.raises(WrongResolutionError, match=r"160 x 120 .* 320 x 240"):
+            await driver.frame()
+        driver.fault = CameraFault.NONE
+        assert (await driver.frame()).image.shape == (240, 320)
+
+    run(scenario)
+
+
+def test_far_too_much_light_leaves_hardly_anything_but_white() -> None:
+    async def scenario() -> None:
+        driver = camera()
+        await driver.open()
+        driver.fault = CameraFault.OVEREXPOSED
+        assert np.mean((await driver.frame()).image == 255) > 0.9
+
+    run(scenario)
+
+
+def test_a_lamp_that_is_switched_off_darkens_frames_exposed_later() -> None:
+    async def scenario() -> None:
+        driver = camera()
+        await driver.open()
+        await asyncio.sleep(0.1)
+        waiting = asyncio.ensure_future(driver.frame())  # its rows were read before the change
+        await asyncio.sleep(0)
+        driver.set_light(0.1)
+        lit, dim = await waiting, await driver.frame(exposed_after_s=now_s())
+        assert dim.image.mean() < 0.6 * lit.image.mean()
+        with pytest.raises(ValueError, match="light"):
+            driver.set_light(float("nan"))
 
     run(scenario)
 

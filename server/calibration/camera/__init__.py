@@ -1,0 +1,1 @@
+"""The camera's own numbers, from pictures of the ChArUco board."""

@@ -1,0 +1,106 @@
+"""One robust Gauss-Newton step: weighted least squares over pose and edge spread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from server.vision.fitting.edge_profiles import EdgeOffsets
+from server.vision.fitting.median import median
+from server.vision.projection import Array
+
+LEAST_EDGES = 24
+_TUKEY = 4.685  # 95% efficient for normal residuals (Beaton and Tukey 1974)
+_LEAST_CONTRAST = 0.2  # of the median contrast; below it an edge says nothing
+_SMALLEST_SCALE_PX = 0.01
+_REWEIGHTINGS = 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RobustStep:
+    """Solution of the linear system of one set of measured edges.
+
+    Attributes:
+        step: Change of (omega, tau, spread), shape (6 + s,).
+        design: Derivative of the residuals by (omega, tau, spread), shape (n, 6 + s).
+        residuals: What is left after the step, shape (n,) [px].
+        weights: Tukey's weights, shape (n,).
+        scale_px: Robust standard deviation of each edge's residual, shape (n,).
+        used: Which of the measured edges are in the system.
+        efficiency: Mean derivative of Tukey's score, needed for the covariance.
+    """
+
+    step: Array
+    design: Array
+    residuals: Array
+    weights: Array
+    scale_px: Array
+    used: NDArray[np.bool_]
+    efficiency: float
+
+    @property
+    def moved_px(self) -> float:
+        """How far the step moves the farthest edge."""
+        return float(np.max(np.abs(self.design @ self.step)))
+
+    @property
+    def rms_px(self) -> float:
+        """Weighted root mean square of what is left."""
+        return float(np.sqrt(np.sum(self.weights * self.residuals**2) / np.sum(self.weights)))
+
+
+def robust_step(
+    measured: EdgeOffsets, spread_px: Array, by_spread: Array, upright: NDArray[np.bool_]
+) -> RobustStep | None:
+    """Solve for the step, beginning without weights and then with Tukey's.
+
+    Beginning without is what makes a start far off converge: there, all edges of one direction
+    are off alike, and a robust scale would take the other direction alone for the truth. No edge
+    can be off by more than its profile, so no outlier can do much harm in the first solution.
+
+    Motion blurs the edges of one direction more than those of the other, so each direction has
+    a scale of its own.
+
+    Args:
+        measured: Edges as the current pose sees them.
+        spread_px: Current edge spread at each of them, shape (n,).
+        by_spread: Its derivative by the numbers that describe it, shape (n, s), and by whatever
+            else is unknown.
+        upright: Which edges run along the label's y axis, shape (n,).
+
+    Returns:
+        The step, or None where too few edges can be used.
+    """
+    rising = measured.visible & (measured.contrast > 0)
+    if np.count_nonzero(rising) < LEAST_EDGES:
+        return None
+    enough = _LEAST_CONTRAST * median(measured.contrast[rising])
+    used = rising & (measured.contrast > enough)
+    offsets = measured.offset_px[used] - spread_px[used]
+    columns = np.concatenate((measured.by_pose.T, by_spread.T))[:, used]
+    columns *= measured.gain[used]
+    design = columns.T
+    directions = [np.flatnonzero(way) for way in (upright[used], ~upright[used])]
+    weights, scale_px = np.ones(len(offsets)), np.ones(len(offsets))
+    for number in range(_REWEIGHTINGS + 1):
+        weighted = columns * (weights / scale_px**2)
+        try:
+            step: Array = np.linalg.solve(weighted @ design, weighted @ offsets).astype(np.float64)
+        except np.linalg.LinAlgError:
+            return None
+        residuals = offsets - design @ step
+        if number == _REWEIGHTINGS:
+            break
+        for way in directions:
+            if len(way):
+                scale = 1.4826 * median(np.abs(residuals[way]))
+                scale_px[way] = max(scale, _SMALLEST_SCALE_PX)
+        relative2 = (residuals / (_TUKEY * scale_px)) ** 2
+        inside = relative2 < 1
+        if np.count_nonzero(inside) < LEAST_EDGES:
+            return None
+        weights = np.where(inside, (1 - relative2) ** 2, 0.0)
+    efficiency = float(np.sum(((1 - relative2) * (1 - 5 * relative2))[inside])) / len(offsets)
+    return RobustStep(step, design, residuals, weights, scale_px, used, max(efficiency, 0.2))

@@ -1,0 +1,1 @@
+"""How well the label is located: a seeded data set, several methods, a table and a plot."""
