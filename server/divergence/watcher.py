@@ -98,6 +98,8 @@ class DivergenceWatcher:
             self._spread(self._watch.begin_phase(phase, now_s))
 
     def _socket_seen(self, socket: SocketPose, frame: Frame) -> None:
+        if not socket.from_standstill:
+            return  # its covariance leaves out what the motion does to the picture
         sighting = Sighting(
             at_s=frame.captured_at_s,
             place_mm=socket.T_base_socket[:3, 3],

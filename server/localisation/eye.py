@@ -161,11 +161,15 @@ class Eye:
         return sighting
 
     async def _socket(self, sighting: LabelPose, frame: Frame, vehicle: Vehicle) -> SocketPose:
+        still = not self._moving
         T_base_camera = await self._camera_pose(frame)
-        if not self._moving:
+        if still:
             self._size.add(sighting, T_base_camera)
             self._size.require_right_size(vehicle.label_size_mm)
-        socket = socket_from_label(sighting, T_base_camera, vehicle.socket, frame.captured_at_s)
+        socket = replace(
+            socket_from_label(sighting, T_base_camera, vehicle.socket, frame.captured_at_s),
+            from_standstill=still,
+        )
         for listener in self._listeners:
             listener(socket, frame)
         return socket

@@ -24,12 +24,15 @@ class SocketPose:
         T_base_label: The label it was derived from.
         covariance: Of the socket's origin in the base frame, shape (3, 3) [mm^2].
         measured_at_s: Event loop time of the picture.
+        from_standstill: The robot stood still; a rolling shutter shifts what it sees on the way by
+            tenths of a millimetre, which the covariance does not know of.
     """
 
     T_base_socket: Pose
     T_base_label: Pose
     covariance: NDArray[np.float64]
     measured_at_s: float
+    from_standstill: bool = True
 
     @property
     def entry(self) -> TipPosition:
