@@ -22,7 +22,14 @@ from drivers.simulator.garage import (
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationDriver
-from drivers.station.make import make_evcc, make_openevse, manage
+from drivers.station.make import (
+    make_evcc,
+    make_goe,
+    make_http,
+    make_openevse,
+    make_shelly,
+    manage,
+)
 from drivers.station.memory import StationMemory
 from drivers.station.settings import StationGroups
 from twin.camera_mount import CameraMount
@@ -126,6 +133,9 @@ STATIONS: Mapping[str, Callable[[DeviceRequest], StationDriver]] = {
     SIMULATOR: lambda request: request.surroundings.station,
     "openevse": lambda request: make_openevse(request.stations, request.memory),
     "evcc": lambda request: make_evcc(request.stations, request.memory),
+    "goe": lambda request: make_goe(request.stations, request.memory),
+    "shelly": lambda request: make_shelly(request.stations),
+    "http": lambda request: make_http(request.stations),
 }
 
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TypeVar
 
 from drivers.station.evcc import EvccStation
+from drivers.station.goe import GoeStation
+from drivers.station.http import HttpStation
 from drivers.station.managed import ManagedStation
 from drivers.station.memory import StationMemory
 from drivers.station.openevse import OpenevseStation
 from drivers.station.protocol import StationDriver
 from drivers.station.settings import StationGroups
+from drivers.station.shelly import ShellyStation
 
 G = TypeVar("G")
 
@@ -22,6 +25,21 @@ def make_openevse(groups: StationGroups, memory: StationMemory) -> StationDriver
 def make_evcc(groups: StationGroups, memory: StationMemory) -> StationDriver:
     """An evcc alone: good for starting and stopping, never a proof of no load."""
     return EvccStation(_need(groups.evcc, "evcc"), memory)
+
+
+def make_goe(groups: StationGroups, memory: StationMemory) -> StationDriver:
+    """A go-e charger."""
+    return GoeStation(_need(groups.goe, "goe"), memory)
+
+
+def make_shelly(groups: StationGroups) -> StationDriver:
+    """A Shelly relay."""
+    return ShellyStation(_need(groups.shelly, "shelly"))
+
+
+def make_http(groups: StationGroups) -> StationDriver:
+    """A station that the configuration describes."""
+    return HttpStation(_need(groups.http, "http"))
 
 
 def manage(

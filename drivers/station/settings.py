@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Annotated, Literal, Self
 from urllib.parse import urlsplit
 
@@ -28,6 +29,15 @@ def _web_address(url: str) -> str:
         msg = "must end before any ? or #"
         raise ValueError(msg)
     return url.rstrip("/")
+
+
+def _json_text(text: str) -> str:
+    try:
+        json.loads(text)
+    except ValueError as error:
+        msg = f"must be JSON: {error}"
+        raise ValueError(msg) from error
+    return text
 
 
 WebAddress = Annotated[str, AfterValidator(_web_address)]
@@ -87,7 +97,9 @@ class Command(Group):
 
     path: RequestPath
     method: Literal["GET", "POST", "PUT", "PATCH", "DELETE"] = "POST"
-    body: str | None = Field(None, description="JSON text to send")
+    body: Annotated[str, AfterValidator(_json_text)] | None = Field(
+        None, description="JSON text to send"
+    )
 
 
 class NumberPlace(Group):
