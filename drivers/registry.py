@@ -26,6 +26,7 @@ from drivers.station.make import (
     make_evcc,
     make_goe,
     make_http,
+    make_ocpp,
     make_openevse,
     make_shelly,
     manage,
@@ -136,6 +137,7 @@ STATIONS: Mapping[str, Callable[[DeviceRequest], StationDriver]] = {
     "goe": lambda request: make_goe(request.stations, request.memory),
     "shelly": lambda request: make_shelly(request.stations),
     "http": lambda request: make_http(request.stations),
+    "ocpp": lambda request: make_ocpp(request.stations, request.memory),
 }
 
 

@@ -9,6 +9,7 @@ from drivers.station.goe import GoeStation
 from drivers.station.http import HttpStation
 from drivers.station.managed import ManagedStation
 from drivers.station.memory import StationMemory
+from drivers.station.ocpp16 import OcppStation
 from drivers.station.openevse import OpenevseStation
 from drivers.station.protocol import StationDriver
 from drivers.station.settings import StationGroups
@@ -40,6 +41,11 @@ def make_shelly(groups: StationGroups) -> StationDriver:
 def make_http(groups: StationGroups) -> StationDriver:
     """A station that the configuration describes."""
     return HttpStation(_need(groups.http, "http"))
+
+
+def make_ocpp(groups: StationGroups, memory: StationMemory) -> StationDriver:
+    """A station that connects by OCPP 1.6-J."""
+    return OcppStation(_need(groups.ocpp, "ocpp"), memory)
 
 
 def manage(

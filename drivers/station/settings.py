@@ -161,6 +161,7 @@ class OcppSettings(Group):
     )
     password: SecretStr | None = Field(None, description="Its AuthorizationKey, if any")
     connector: Annotated[int, Field(ge=1, le=9)] = 1
+    unlocks: bool = Field(False, description="It has a lock that UnlockConnector opens")
     id_tag: Annotated[str, Field(min_length=1, max_length=20)] = "PLUGPILOT"
     timeout_s: Annotated[float, Field(gt=0, le=3)] = 2.0
     clock_tolerance_s: Seconds = Field(

@@ -12,7 +12,7 @@ from drivers.station.settings import StationGroups
 class StationSettings(StationGroups):
     """The charging station that the robot's plug hangs on."""
 
-    driver: Literal["simulator", "openevse", "evcc", "goe", "shelly", "http"] = Field(
+    driver: Literal["simulator", "openevse", "evcc", "goe", "shelly", "http", "ocpp"] = Field(
         "simulator", description="Kind of station; a simulated one goes with a real robot, too"
     )
     manager: Literal["none", "evcc"] = Field(

@@ -1,12 +1,17 @@
 from __future__ import annotations
 
+import re
+import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
 from pydantic import ValidationError
 
-from drivers.registry import STATIONS
+import drivers.station
+from drivers.registry import SIMULATOR, STATIONS, DeviceRequest, make_devices
 from drivers.station.settings import HttpSettings, OcppSettings, OpenevseSettings
+from server.config.settings import Settings
 from server.config.station import StationSettings
 from tests.drivers.station.test_http import SETTINGS
 
@@ -54,6 +59,49 @@ def test_every_driver_has_a_name_in_the_configuration() -> None:
     assert set(names) == set(STATIONS)
 
 
+GROUPS: dict[str, Any] = {
+    "openevse": {"url": URL},
+    "evcc": {"url": URL},
+    "goe": {"url": URL},
+    "shelly": {"url": URL},
+    "http": {**SETTINGS, "url": URL},
+    "ocpp": {"charge_point": "garage"},
+}
+
+
+def device_request(driver: str, manager: str = "none") -> DeviceRequest:
+    settings = Settings(station={"driver": driver, "manager": manager, **GROUPS})
+    return DeviceRequest(
+        robot="simulator",
+        camera="simulator",
+        station=settings.station.driver,
+        port="auto",
+        geometry=settings.geometry,
+        limits=settings.motion,
+        mount=settings.camera.mount,
+        optics=settings.camera.optics,
+        simulation=settings.simulation.parameters,
+        seed=4,
+        manager=settings.station.manager,
+        stations=settings.station,
+    )
+
+
+@pytest.mark.parametrize("driver", GROUPS)
+def test_each_driver_is_made_from_the_configuration(driver: str) -> None:
+    assert set(GROUPS) == set(STATIONS) - {SIMULATOR}
+    station = make_devices(device_request(driver)).station
+    assert type(station).__name__.lower() == (driver + "station")
+    assert station.name
+
+
+@pytest.mark.parametrize("driver", ["openevse", "goe", "ocpp"])
+def test_a_manager_goes_before_each_station(driver: str) -> None:
+    station = make_devices(device_request(driver, "evcc")).station
+    assert station.name.endswith("with evcc")
+    assert station.capabilities.holds
+
+
 @pytest.mark.parametrize(
     ("settings", "says"),
     [
@@ -79,3 +127,10 @@ def test_a_manager_before_a_station() -> None:
     )
     assert settings.openevse is not None
     assert settings.openevse.url == URL
+
+
+def test_the_examples_in_the_description_work() -> None:
+    description = (Path(drivers.station.__file__).parent / "README.md").read_text("utf-8")
+    examples = re.findall(r"```toml\n(.*?)```", description, re.DOTALL)
+    made = [Settings.model_validate(tomllib.loads(example)) for example in examples]
+    assert {settings.station.driver for settings in made} == set(GROUPS) - {"evcc"}
