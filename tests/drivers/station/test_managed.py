@@ -1,16 +1,22 @@
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 
 from drivers.station import (
     PilotState,
+    StationDriver,
     StationHeldError,
     StationSilentError,
+    StationSnapshot,
     StationUnreachableError,
 )
 from drivers.station.evcc import EvccStation
 from drivers.station.managed import ManagedStation
 from drivers.station.openevse import OpenevseStation
+from server.jobs.errors import JobError, StationUnsafeError, StillUnderLoadError
+from server.jobs.phases.releasing import why_not_safe
 from tests.support.fake_stations.evcc import FakeEvcc
 from tests.support.fake_stations.openevse import FakeOpenevse
 
@@ -139,3 +145,22 @@ async def test_start_waits_for_the_release_and_leaves_the_decision_to_the_manage
     fake_evcc.tick()
     assert fake_evcc.mode == "now"
     assert (await managed.snapshot()).carries_load
+
+
+@pytest.mark.usefixtures("charging")
+async def test_a_job_believes_the_station_and_never_evcc_alone(
+    managed: ManagedStation, evcc: EvccStation, openevse: OpenevseStation
+) -> None:
+    def against(station: StationDriver, snapshot: StationSnapshot) -> type[JobError] | None:
+        # judged at the time of the reading of the station, however busy this machine is
+        problem = why_not_safe(snapshot, station.capabilities, asked_s)
+        return None if problem is None else type(problem)
+
+    asked_s = asyncio.get_running_loop().time()
+    assert against(managed, await managed.snapshot()) is StillUnderLoadError
+    await openevse.stop()
+    assert against(openevse, await openevse.snapshot()) is None
+    assert against(managed, await managed.snapshot()) is StillUnderLoadError, "evcc is still on"
+    await managed.hold()
+    assert against(managed, await managed.snapshot()) is None
+    assert against(evcc, await evcc.snapshot()) is StationUnsafeError
