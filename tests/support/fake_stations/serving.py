@@ -5,18 +5,10 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import socket
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 
 import uvicorn
 from starlette.types import ASGIApp
-
-
-class _Server(uvicorn.Server):
-    """Inside a test, signals are the test runner's business."""
-
-    @contextlib.contextmanager
-    def capture_signals(self) -> Iterator[None]:
-        yield
 
 
 @contextlib.asynccontextmanager
@@ -26,14 +18,16 @@ async def serving(app: ASGIApp) -> AsyncIterator[str]:
     config = uvicorn.Config(
         app, log_level="error", access_log=False, lifespan="off", ws="websockets-sansio"
     )
-    server = _Server(config)
-    running = asyncio.create_task(server.serve(sockets=[listener]))
+    config.load()
+    # Without its main loop, which only looks for signals, it starts and stops at once.
+    server = uvicorn.Server(config)
+    server.lifespan = config.lifespan_class(config)
+    await server.startup(sockets=[listener])
     try:
         yield f"http://127.0.0.1:{listener.getsockname()[1]}"
     finally:
-        server.should_exit = server.force_exit = True
-        await running
-        listener.close()
+        server.force_exit = True
+        await server.shutdown(sockets=[listener])
 
 
 @contextlib.asynccontextmanager
