@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import TypeVar
 
 from drivers.arduino.driver import ArduinoRobot
@@ -27,11 +28,26 @@ from drivers.simulator.garage import (
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationDriver
+from drivers.station.make import (
+    make_evcc,
+    make_goe,
+    make_http,
+    make_ocpp,
+    make_openevse,
+    make_shelly,
+    manage,
+)
+from drivers.station.memory import StationMemory
+from drivers.station.settings import StationGroups
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.motion import MotionLimits
 
 D = TypeVar("D")
+
+SIMULATOR = "simulator"
+ARDUINO = "arduino"
+NO_MANAGER = "none"
 
 
 @dataclass(frozen=True)
@@ -51,6 +67,10 @@ class DeviceRequest:
         seed: Decides everything random in it.
         board: Numbers of the real motion board.
         cameras: How real cameras are reached.
+        manager: Name of the energy manager before the station, or "none".
+        stations: Settings of the stations.
+        station_file: Where station and manager keep what must survive a restart; None keeps it
+            in this process.
     """
 
     robot: str
@@ -65,6 +85,14 @@ class DeviceRequest:
     seed: int
     board: BoardSettings = field(default_factory=BoardSettings)
     cameras: CameraLinks = field(default_factory=CameraLinks)
+    manager: str = NO_MANAGER
+    stations: StationGroups = field(default_factory=StationGroups)
+    station_file: Path | None = None
+
+    @cached_property
+    def memory(self) -> StationMemory:
+        """What station and manager must not forget."""
+        return StationMemory(self.station_file)
 
     @property
     def simulated(self) -> bool:
@@ -101,9 +129,6 @@ class DeviceRequest:
         return self.garage if self.simulated else self.followed
 
 
-SIMULATOR = "simulator"
-ARDUINO = "arduino"
-
 ROBOTS: Mapping[str, Callable[[DeviceRequest], RobotDriver]] = {
     SIMULATOR: lambda request: request.garage.robot,
     ARDUINO: lambda request: ArduinoRobot(
@@ -125,6 +150,12 @@ CAMERAS: Mapping[str, Callable[[DeviceRequest], CameraDriver]] = {
 }
 STATIONS: Mapping[str, Callable[[DeviceRequest], StationDriver]] = {
     SIMULATOR: lambda request: request.surroundings.station,
+    "openevse": lambda request: make_openevse(request.stations, request.memory),
+    "evcc": lambda request: make_evcc(request.stations, request.memory),
+    "goe": lambda request: make_goe(request.stations, request.memory),
+    "shelly": lambda request: make_shelly(request.stations),
+    "http": lambda request: make_http(request.stations),
+    "ocpp": lambda request: make_ocpp(request.stations, request.memory),
 }
 
 
@@ -164,10 +195,17 @@ def make_devices(request: DeviceRequest) -> Devices:
     return Devices(
         robot=_choose(ROBOTS, "robot", request.robot)(request),
         camera=_choose(CAMERAS, "camera", request.camera)(request),
-        station=_choose(STATIONS, "station", request.station)(request),
+        station=_station(request),
         garage=request.garage if request.simulated else None,
         followed=request.followed if around_real_robot else None,
     )
+
+
+def _station(request: DeviceRequest) -> StationDriver:
+    station = _choose(STATIONS, "station", request.station)(request)
+    if request.manager == NO_MANAGER:
+        return station
+    return manage(request.manager, station, request.stations, request.memory)
 
 
 def _choose(

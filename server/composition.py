@@ -86,7 +86,7 @@ async def running(
     cv2.setNumThreads(1)
     speed = settings.clock_speed
     calendar = Calendar(speed)
-    devices = devices or _devices(settings)
+    devices = devices or _devices(settings, folder)
     async with contextlib.AsyncExitStack() as stack:
         database = Database(folder)
         await database.open()
@@ -174,7 +174,7 @@ async def running(
         yield services
 
 
-def _devices(settings: Settings) -> Devices:
+def _devices(settings: Settings, folder: Path | None) -> Devices:
     request = DeviceRequest(
         robot=settings.robot.driver,
         camera=settings.camera.driver,
@@ -182,6 +182,9 @@ def _devices(settings: Settings) -> Devices:
         port=settings.robot.port,
         board=settings.robot.board,
         cameras=settings.camera.link,
+        manager=settings.station.manager,
+        stations=settings.station,
+        station_file=folder / "station.json" if folder is not None else None,
         geometry=settings.geometry,
         limits=settings.motion,
         mount=settings.camera.mount,

@@ -9,6 +9,8 @@ TwinError
 │   ├── InvalidMotionError     the request makes no motion (a speed of zero, a number not finite)
 │   ├── PlanningError          the planner found no trajectory
 │   └── UnsafePlanError        a plan leaves the limits on its way; says when and where
+├── NoDesignError              twin.study.optimise: no robot within the bounds meets the demands
+├── InvalidCovarianceError     twin.scene.overlays.spread: a matrix that is no covariance
 └── WorkspaceError             twin.workspace.errors
     ├── EmptyWorkspaceError    the robot reaches no position at all
     ├── EmptyRegionError       a figure was asked of a region that has no points

@@ -1,6 +1,18 @@
 """Charging stations: the protocol every station driver follows."""
 
-from drivers.station.errors import StationError, StationUnsupportedError
+from drivers.station.errors import (
+    StationAnswerError,
+    StationError,
+    StationHeldError,
+    StationLoginError,
+    StationMemoryError,
+    StationNotOpenError,
+    StationRefusedError,
+    StationSilentError,
+    StationStaleError,
+    StationUnreachableError,
+    StationUnsupportedError,
+)
 from drivers.station.protocol import (
     PilotState,
     StationCapabilities,
@@ -10,9 +22,18 @@ from drivers.station.protocol import (
 
 __all__ = [
     "PilotState",
+    "StationAnswerError",
     "StationCapabilities",
     "StationDriver",
     "StationError",
+    "StationHeldError",
+    "StationLoginError",
+    "StationMemoryError",
+    "StationNotOpenError",
+    "StationRefusedError",
+    "StationSilentError",
     "StationSnapshot",
+    "StationStaleError",
+    "StationUnreachableError",
     "StationUnsupportedError",
 ]

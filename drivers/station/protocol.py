@@ -25,6 +25,8 @@ class StationCapabilities:
     switches: bool  # start() and stop()
     holds: bool  # hold() outranks other controllers until release()
     unlocks: bool  # unlock() opens the connector lock
+    fresh: bool = True  # a reading is as new as the question
+    senses_car: bool = True  # the pilot state shows whether a car is connected
 
 
 @dataclass(frozen=True, slots=True)

@@ -96,12 +96,12 @@ def test_steps_lost_between_two_pictures_are_seen_by_the_camera_alone() -> None:
         job = await scene.start(JobType.PLUG_IN)
         await scene.until_phase(JobPhase.ALIGNING)
         await scene.until_moving()
-        lose_steps(scene, 1.0)
+        lose_steps(scene, 2.0)
         ended = await scene.ended(job)
         events = [e for e in await scene.events(job) if e.kind == "divergence"]
         assert quantities(events) == {"socket"}
         assert events[0].phase is JobPhase.ALIGNING
-        assert events[0].data["measured"] == pytest.approx(0.7, abs=0.3)
+        assert events[0].data["measured"] == pytest.approx(1.3, abs=0.4)
         # The last picture was taken after it, so the plug meets the socket all the same.
         assert ended.state is JobState.SUCCEEDED
         assert scene.truth().lateral_error_mm < 0.5
@@ -122,11 +122,11 @@ def test_steps_lost_after_the_last_picture_cannot_be_seen() -> None:
     async def scenario(scene: Scene) -> None:
         job = await scene.start(JobType.PLUG_IN)
         await scene.until_phase(JobPhase.INSERTING)
-        lose_steps(scene, 1.0)
+        lose_steps(scene, 0.7)
         ended = await scene.ended(job)
         assert ended.state is JobState.SUCCEEDED  # the chamfer takes it up
         assert [e for e in await scene.events(job) if e.kind == "divergence"] == []
-        assert scene.truth().lateral_error_mm > 0.4
+        assert scene.truth().lateral_error_mm > 0.3
 
     on_scene(scenario, seed=3)
 

@@ -129,6 +129,7 @@ def test_a_robot_that_loses_its_link_stops_and_unplugs_later() -> None:
         assert ended.error is not None
         assert ended.error.code == "robot_offline"
         assert supervisor.plug.state is PlugState.INSERTED
+        await scene.later(0.5)  # nobody can see it, but the board has noticed the silence by now
         assert await scene.still()
         with pytest.raises(RobotOfflineError):
             await scene.start(JobType.UNPLUG)

@@ -1,0 +1,5 @@
+"""evcc: the energy manager in front of a station."""
+
+from drivers.station.evcc.driver import EvccStation
+
+__all__ = ["EvccStation"]

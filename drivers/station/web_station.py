@@ -1,0 +1,39 @@
+"""What all stations with an HTTP API have in common."""
+
+from __future__ import annotations
+
+from drivers.station.web import WebDevice
+
+
+class WebStation:
+    """A name, and a connection that opens and closes.
+
+    Args:
+        web: The device.
+    """
+
+    def __init__(self, web: WebDevice) -> None:
+        self._web = web
+
+    @property
+    def name(self) -> str:
+        """Name a person recognises."""
+        return self._web.name
+
+    async def open(self) -> None:
+        """Connect to the station and look whether it is one.
+
+        After an error it may be used all the same: it works as soon as the station does.
+
+        Raises:
+            StationError: it is not there, or something else is.
+        """
+        self._web.open()
+        await self._look()
+
+    async def close(self) -> None:
+        """Disconnect; the station goes on by itself. Safe to call twice."""
+        await self._web.close()
+
+    async def _look(self) -> None:
+        raise NotImplementedError

@@ -1,0 +1,1 @@
+"""Stations and managers that answer on a real socket of this machine, as the real ones do."""
