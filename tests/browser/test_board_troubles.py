@@ -72,7 +72,7 @@ def release(page: Page, button: str) -> None:
 def test_a_board_at_rest_is_ready_and_the_car_is_said_to_be_simulated(phone: Page) -> None:
     expect_words(phone, "Ready when you are")
     expect(phone.locator(".badge")).to_have_text("Simulated car")
-    phone.locator("summary").tap()
+    phone.locator("summary").filter(has_text="Robot").tap()
     expect(phone.locator(".robot")).to_contain_text("Me Auriga")
     expect(phone.locator(".robot")).to_contain_text("camera, charging station")
 

@@ -8,6 +8,8 @@ import pytest
 import twin.errors
 import twin.kinematics
 import twin.motion
+import twin.scene.overlays.spread
+import twin.study.optimise
 import twin.workspace
 from twin.errors import TwinError
 
@@ -20,7 +22,7 @@ def tree(root: type[TwinError]) -> Iterator[type[TwinError]]:
 
 def test_every_error_has_its_own_code() -> None:
     codes = [error.code for error in tree(TwinError)]
-    assert len(codes) == len(set(codes)) >= 16
+    assert len(codes) == len(set(codes)) >= 18
 
 
 def test_every_error_says_what_to_do() -> None:

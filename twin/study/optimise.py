@@ -1,4 +1,4 @@
-"""The smallest robot that does what is demanded."""
+"""The smallest robot that does what is demanded; NoDesignError says that there is none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How sure the measured place of the socket is: the ellipsoid that holds it 19 times of 20."""
+"""How sure the measured place of the socket is: the ellipsoid that holds it 19 times of 20.
+
+InvalidCovarianceError   a matrix that is no covariance has no ellipsoid
+"""
 
 from __future__ import annotations
 
