@@ -1,9 +1,10 @@
 // Runs before the 3D client, in the same page.
-// The colour scheme is dark unless the address says ?theme=light.
+// The colour scheme is that of the browser unless the address says ?theme=light or ?theme=dark.
 // A window narrower than high sees the whole robot from left to right.
 {
   const query = new URLSearchParams(location.search);
-  const light = query.get("theme") === "light";
+  const theme = query.get("theme");
+  const light = theme ? theme === "light" : matchMedia("(prefers-color-scheme: light)").matches;
   if (light) query.delete("darkMode");
   else query.set("darkMode", "");
   document.documentElement.dataset.theme = light ? "light" : "dark";

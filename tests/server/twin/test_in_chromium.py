@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
-from typing import Any
+from collections.abc import AsyncIterator, Awaitable, Callable
+from typing import Any, Literal
 
 import cv2
 import numpy as np
 import pytest
+import pytest_asyncio
 from playwright.async_api import Browser, Page, Request, Route, ViewportSize
 
 from tests.server.twin.conftest import Serve
@@ -32,6 +33,13 @@ NODES = [
     "/cable",
     "/overlays/box/edges",
 ]
+
+
+@pytest_asyncio.fixture
+async def picture_address(host: TwinHost, serve: Serve) -> AsyncIterator[str]:
+    """Where the 3D picture is served."""
+    async with serve(host) as address:
+        yield address
 
 
 async def open_twin(browser: Browser, address: str, path: str = "/twin/") -> Page:
@@ -110,15 +118,21 @@ async def test_the_page_around_hears_that_it_lives_and_that_it_died(
         await until_said("live")
 
 
-@pytest.mark.parametrize(("query", "dark"), [("", True), ("?theme=light", False)])
-async def test_it_is_dark_unless_asked_to_be_light(
-    chromium: Browser, host: TwinHost, serve: Serve, query: str, dark: bool
+@pytest.mark.parametrize(
+    ("preferred", "query", "shown"),
+    [("dark", "", "dark"), ("light", "", "light"), ("light", "?theme=dark", "dark")],
+)
+async def test_it_is_as_light_as_the_browser_unless_the_address_says_otherwise(
+    picture_address: str,
+    chromium: Browser,
+    preferred: Literal["dark", "light"],
+    query: str,
+    shown: str,
 ) -> None:
-    async with serve(host) as address:
-        page = await open_twin(chromium, address, f"/twin/{query}")
-        await page.wait_for_selector("canvas", state="attached", timeout=30_000)
-        scheme = await page.get_attribute("html", "data-mantine-color-scheme")
-        assert scheme == ("dark" if dark else "light")
+    page = await chromium.new_page(viewport=SMALL, color_scheme=preferred)
+    await page.goto(f"http://{picture_address}/twin/{query}")
+    await page.wait_for_selector("canvas", state="attached", timeout=30_000)
+    assert await page.get_attribute("html", "data-mantine-color-scheme") == shown
 
 
 async def test_layers_are_switched_by_each_viewer_for_himself(
