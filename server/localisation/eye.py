@@ -26,6 +26,12 @@ from server.vision import (
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 
+PICTURE_S = 0.04
+"""A picture is over so long before and after the middle of its exposure, read-out included."""
+
+STILL_MM = 0.02
+"""Joints that have moved less in that time stood still, but for the encoder's noise."""
+
 OnSighting = Callable[[SocketPose, Frame], None]
 Refusal = VisionError | ImplausiblePlaceError
 _DOUBTS = (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError)
@@ -138,7 +144,7 @@ class Eye:
         self, frame: Frame, vehicle: Vehicle, expected: SocketPose | None
     ) -> LabelPose | None:
         self._refusal = None
-        moving = self._moving
+        moving = not self._stood_still(frame)
         T_base_camera = await self._camera_pose(frame)
         predicted = None
         if expected is not None:
@@ -161,7 +167,7 @@ class Eye:
         return sighting
 
     async def _socket(self, sighting: LabelPose, frame: Frame, vehicle: Vehicle) -> SocketPose:
-        still = not self._moving
+        still = self._stood_still(frame)
         T_base_camera = await self._camera_pose(frame)
         if still:
             self._size.add(sighting, T_base_camera)
@@ -177,6 +183,19 @@ class Eye:
     @property
     def _moving(self) -> bool:
         return self._telemetry.require().board in MOVING
+
+    def _stood_still(self, frame: Frame) -> bool:
+        """Whether the robot stood while the picture was exposed and read out.
+
+        That it stands now is not enough: it may have come to rest since.
+        """
+        if self._moving:
+            return False
+        before, after = (
+            self._telemetry.joints_at(frame.captured_at_s + shift_s)
+            for shift_s in (-PICTURE_S, PICTURE_S)
+        )
+        return all(abs(a - b) < STILL_MM for a, b in zip(before, after, strict=True))
 
     async def _camera_pose(self, frame: Frame) -> Pose:
         if self._moving:
