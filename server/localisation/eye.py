@@ -26,12 +26,6 @@ from server.vision import (
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 
-PICTURE_S = 0.04
-"""A picture is over so long before and after the middle of its exposure, read-out included."""
-
-STILL_MM = 0.02
-"""Joints that have moved less in that time stood still, but for the encoder's noise."""
-
 OnSighting = Callable[[SocketPose, Frame], None]
 Refusal = VisionError | ImplausiblePlaceError
 _DOUBTS = (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError)
@@ -86,7 +80,8 @@ class Eye:
 
         Args:
             vehicle: Whose label to look for.
-            expected: Where it was last seen; makes finding it quicker.
+            expected: Where it was last seen, for looks on the way; without it the robot must
+                stand still.
 
         Returns:
             The socket's pose, or None when the label is not in the picture (or not good enough);
@@ -98,11 +93,12 @@ class Eye:
         """
         if expected is None:
             self._size = LabelSizeCheck()  # nobody says that the car still stands where it stood
+        still = expected is None
         frame = await self._frame()
-        sighting = await self._locate(frame, vehicle, expected)
+        sighting = await self._locate(frame, vehicle, expected, still=still)
         if sighting is None:
             return None
-        return await self._socket(sighting, frame, vehicle)
+        return await self._socket(sighting, frame, vehicle, still=still)
 
     async def measure(
         self, vehicle: Vehicle, frames: int, expected: SocketPose | None
@@ -123,13 +119,13 @@ class Eye:
         doubts: list[Refusal] = []
         for _ in range(frames):
             frame = await self._frame()
-            sighting = await self._locate(frame, vehicle, expected)
+            sighting = await self._locate(frame, vehicle, expected, still=True)
             if sighting is not None:
                 sightings.append(sighting)
             elif isinstance(self._refusal, _DOUBTS):
                 doubts.append(self._refusal)
         if sightings and 2 * len(sightings) >= frames:
-            return await self._socket(combine(sightings), frame, vehicle)
+            return await self._socket(combine(sightings), frame, vehicle, still=True)
         if 2 * len(doubts) >= frames:
             raise doubts[-1]
         return None
@@ -141,10 +137,9 @@ class Eye:
             raise CameraDownError(str(error)) from error
 
     async def _locate(
-        self, frame: Frame, vehicle: Vehicle, expected: SocketPose | None
+        self, frame: Frame, vehicle: Vehicle, expected: SocketPose | None, *, still: bool
     ) -> LabelPose | None:
         self._refusal = None
-        moving = not self._stood_still(frame)
         T_base_camera = await self._camera_pose(frame)
         predicted = None
         if expected is not None:
@@ -156,9 +151,9 @@ class Eye:
                 label_size_mm=vehicle.label_size_mm,
                 expected_payload=vehicle.label_payload,
                 predicted=predicted,
-                moving=moving,
+                moving=not still,
             )
-            if moving and predicted is not None:
+            if not still and predicted is not None:
                 sighting = _with_attitude(sighting, predicted)
             require_plausible_place(self._geometry, T_base_camera @ sighting.T_camera_label)
         except (VisionError, ImplausiblePlaceError) as error:
@@ -166,8 +161,9 @@ class Eye:
             return None
         return sighting
 
-    async def _socket(self, sighting: LabelPose, frame: Frame, vehicle: Vehicle) -> SocketPose:
-        still = self._stood_still(frame)
+    async def _socket(
+        self, sighting: LabelPose, frame: Frame, vehicle: Vehicle, *, still: bool
+    ) -> SocketPose:
         T_base_camera = await self._camera_pose(frame)
         if still:
             self._size.add(sighting, T_base_camera)
@@ -183,19 +179,6 @@ class Eye:
     @property
     def _moving(self) -> bool:
         return self._telemetry.require().board in MOVING
-
-    def _stood_still(self, frame: Frame) -> bool:
-        """Whether the robot stood while the picture was exposed and read out.
-
-        That it stands now is not enough: it may have come to rest since.
-        """
-        if self._moving:
-            return False
-        before, after = (
-            self._telemetry.joints_at(frame.captured_at_s + shift_s)
-            for shift_s in (-PICTURE_S, PICTURE_S)
-        )
-        return all(abs(a - b) < STILL_MM for a, b in zip(before, after, strict=True))
 
     async def _camera_pose(self, frame: Frame) -> Pose:
         if self._moving:
