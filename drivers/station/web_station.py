@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+
 from drivers.station.web import WebDevice
 
 
-class WebStation:
+class WebStation(ABC):
     """A name, and a connection that opens and closes.
 
     Args:
@@ -35,5 +37,6 @@ class WebStation:
         """Disconnect; the station goes on by itself. Safe to call twice."""
         await self._web.close()
 
+    @abstractmethod
     async def _look(self) -> None:
-        raise NotImplementedError
+        """Ask the station once; raises a StationError when it is not what was expected."""

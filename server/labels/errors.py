@@ -29,38 +29,6 @@ class LabelSizeError(LabelError):
     remedy = "Choose a size between 30 and 120 mm; 60 mm is right for most cars."
 
 
-class ForeignTextError(LabelError):
-    """This is some other QR code."""
-
-    code = "label_foreign_text"
-    title = "This is not a label of PlugPilot"
-    remedy = "Print a label with `plugpilot label` and stick it beside the socket."
-
-
-class OldLabelError(LabelError):
-    """A label of a format that is not in use any more, or not yet."""
-
-    code = "label_version"
-    title = "The label has another format"
-    remedy = "Print the label anew with this version of PlugPilot."
-
-
-class DamagedTextError(LabelError):
-    """The check value does not fit: the text was changed or typed wrongly."""
-
-    code = "label_check"
-    title = "The text of the label is damaged"
-    remedy = "Print the label anew."
-
-
-class ForeignLabelError(LabelError):
-    """The signature is not ours: somebody else made this label."""
-
-    code = "label_foreign"
-    title = "The label was made for another robot"
-    remedy = "Print a label with this robot's key, or copy the key of the robot that printed it."
-
-
 class LabelKeyError(LabelError):
     """The key of the installation cannot be used."""
 

@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from twin.statics.loads import GRAVITY_M_S2
+
 Points = NDArray[np.float64]
 
 SEGMENTS = 40
-GRAVITY_M_S2 = 9.80665
 
 _LEAST_SPAN_MM = 1.0
 
