@@ -1,0 +1,55 @@
+"""The map between the joints of the drawn robot and those of the built one.
+
+Both put the platform in the same place: a joint position of the drawing becomes a place of V by
+the drawn kinematics, and that becomes the carriages of the built robot. The slide stays as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twin.as_built.planar import PlanarAsBuilt
+from twin.geometry import RobotGeometry
+from twin.kinematics import alpha
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class JointCorrection:
+    """Joints of the drawing to joints of the board, and back.
+
+    Attributes:
+        drawn: The robot that everybody plans with.
+        built: The robot on the wall.
+    """
+
+    drawn: RobotGeometry
+    built: PlanarAsBuilt
+
+    def to_board_many(self, joints_mm: Array) -> Array:
+        """What to command.
+
+        Args:
+            joints_mm: Of the drawing, shape (..., 3) [mm].
+
+        Returns:
+            For the board, shape (..., 3) [mm]; NaN where one of the two robots has no such pose.
+        """
+        v = alpha.forward_many(self.drawn, joints_mm[..., :2])
+        return np.concatenate((self.built.inverse_many(v), joints_mm[..., 2:]), axis=-1)
+
+    def from_board_many(self, joints_mm: Array) -> Array:
+        """What was measured.
+
+        Args:
+            joints_mm: Of the board, shape (..., 3) [mm].
+
+        Returns:
+            Of the drawing, shape (..., 3) [mm]; NaN where one of the two has no such pose.
+        """
+        v = self.built.forward_many(joints_mm[..., :2])
+        return np.concatenate((alpha.inverse_many(self.drawn, v), joints_mm[..., 2:]), axis=-1)
