@@ -8,6 +8,7 @@ from drivers.camera.model import CameraModel
 from drivers.simulator import poses
 from drivers.simulator.parameters import BuildErrors
 from drivers.simulator.view import Pose
+from twin.as_built import PlanarAsBuilt
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 
@@ -34,6 +35,22 @@ def built_geometry(
     }
     values["theta_rad"] = nominal.theta_rad + float(rng.normal(0.0, errors.theta_std_rad))
     return RobotGeometry.model_validate({**dict(nominal), **values})
+
+
+def built_mechanism(
+    geometry: RobotGeometry, errors: BuildErrors, rng: np.random.Generator
+) -> PlanarAsBuilt:
+    """Rails and belts of a robot with that true geometry."""
+    left_rad, right_rad = rng.normal(0.0, errors.rail_skew_std_rad, 2).tolist()
+    left, right = rng.normal(1.0, errors.belt_scale_std, 2).tolist()
+    return PlanarAsBuilt.as_drawn(geometry).model_copy(
+        update={
+            "left_rail_rad": left_rad,
+            "right_rail_rad": right_rad,
+            "left_scale": left,
+            "right_scale": right,
+        }
+    )
 
 
 def built_mount(nominal: CameraMount, errors: BuildErrors, rng: np.random.Generator) -> Pose:

@@ -39,7 +39,25 @@ class BuildErrors(Parameters):
     mount_angle_std_rad: Spread = math.radians(0.008)
     principal_point_std_px: Spread = 0.2
     focal_std_fraction: Spread = 2e-4
+    rail_skew_std_rad: Spread = Field(0.0, description="each rail against the x axis")
+    belt_scale_std: Spread = Field(0.0, description="each belt's travel over the commanded one")
     sag_scale: NotNegative = Field(1.0, description="of the measured deflection under self-weight")
+
+    @classmethod
+    def before_calibration(cls) -> Self:
+        """What a drill, a printer and a cheap lens leave: two standard deviations are 3 mm, half a
+        degree of skew, 0.5 % of belt, 5 mm and 3 degrees of camera, 1 % of focal length.
+        """
+        return cls(
+            length_std_mm=1.5,
+            theta_std_rad=math.radians(0.25),
+            mount_offset_std_mm=2.5,
+            mount_angle_std_rad=math.radians(1.5),
+            principal_point_std_px=4.0,
+            focal_std_fraction=5e-3,
+            rail_skew_std_rad=math.radians(0.25),
+            belt_scale_std=2.5e-3,
+        )
 
 
 class DriveParameters(Parameters):

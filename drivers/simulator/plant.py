@@ -16,9 +16,10 @@ from drivers.simulator.sag import RobotSag
 from drivers.simulator.set_points import STILL, UNACCELERATED, SetPoint, SetPointLine
 from drivers.simulator.socket_contact import FREE, Contact, Place, SocketContact
 from drivers.simulator.view import Pose
+from twin.as_built import PlanarAsBuilt
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition, JointVelocity, TipPosition
-from twin.kinematics import LegsCannotCloseError, PlatformPosition, alpha, gamma
+from twin.kinematics import LegsCannotCloseError, PlatformPosition, gamma
 
 ARRIVED_MM = 1e-5
 """A slide this near a resting set point no longer moves."""
@@ -100,14 +101,20 @@ class Plant:
 
     Args:
         geometry: Its true geometry.
+        mechanism: Its rails, belts and legs.
         parameters: Drives and contact.
         sag: Its deflection under self-weight.
     """
 
     def __init__(
-        self, geometry: RobotGeometry, parameters: SimulationParameters, sag: RobotSag
+        self,
+        geometry: RobotGeometry,
+        mechanism: PlanarAsBuilt,
+        parameters: SimulationParameters,
+        sag: RobotSag,
     ) -> None:
         self.geometry = geometry
+        self.mechanism = mechanism
         self._sag = sag
         self._drives = parameters.drives
         self._contact = parameters.contact
@@ -125,7 +132,7 @@ class Plant:
         return self._sagged(state.carriages.rho1_mm, state.carriages.rho2_mm)
 
     def _work_out_platform(self, rho1_mm: float, rho2_mm: float) -> PlatformPosition:
-        v = alpha.forward(self.geometry, rho1_mm, rho2_mm)
+        v = self.mechanism.forward(rho1_mm, rho2_mm)
         return v._replace(y_mm=v.y_mm - self._sag.of_platform_mm(rho1_mm, rho2_mm))
 
     def tip(self, state: PlantState) -> TipPosition:

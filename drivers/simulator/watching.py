@@ -8,7 +8,6 @@ from drivers.simulator import poses
 from drivers.simulator.car import ParkedCar
 from drivers.simulator.plant import Plant, PlantState
 from drivers.simulator.view import CameraView, Pose
-from twin.kinematics import alpha
 
 
 def plug_pose(plant: Plant, state: PlantState) -> Pose:
@@ -31,9 +30,9 @@ def camera_view(
     base_platform = poses.pose(np.eye(3), np.array([v.x_mm, v.y_mm, 0.0]))
     camera_base = poses.inverse(base_platform @ platform_camera)
     carriages = state.carriages
-    legs = alpha.leg_vectors(plant.geometry, v, carriages.rho1_mm, carriages.rho2_mm)
+    jacobian = plant.mechanism.jacobian(carriages.rho1_mm, carriages.rho2_mm)
     camera_velocity = np.zeros(3)
-    camera_velocity[:2] = alpha.jacobian(legs) @ np.array(state.velocity[:2])
+    camera_velocity[:2] = jacobian @ np.array(state.velocity[:2])
     return CameraView(
         T_camera_label=camera_base @ car.T_base_label,
         T_camera_socket=camera_base @ car.T_base_socket,

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from drivers.simulator.build import built_geometry, built_mount
+from drivers.simulator.build import built_geometry, built_mechanism, built_mount
 from drivers.simulator.car import ParkedCar, park
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.plant import Plant, PlantState, Socket, Surroundings
@@ -70,8 +70,9 @@ class SimulatedWorld:
         self._force_scale = 1.0 + float(
             self.streams.build.normal(0.0, parameters.drives.force_scale_std)
         )
+        mechanism = built_mechanism(true_geometry, parameters.build, self.streams.build)
         sag = RobotSag(true_geometry, parameters.build.sag_scale)
-        self._plant = Plant(true_geometry, parameters, sag)
+        self._plant = Plant(true_geometry, mechanism, parameters, sag)
         self._force_limit_n = parameters.board.default_force_limit_n
         self._slide_jammed = False
         self._listeners: list[ConnectionListener] = []

@@ -16,6 +16,7 @@ and that is not in this model.
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Self
 
 import numpy as np
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
 
 from twin.geometry import PositiveLength, RobotGeometry, SignedLength
-from twin.kinematics import alpha
+from twin.kinematics import LegsCannotCloseError, PlatformPosition, alpha
 
 Array = NDArray[np.float64]
 SkewAngle = Annotated[float, Field(ge=-0.2, le=0.2, allow_inf_nan=False)]
@@ -68,6 +69,45 @@ class PlanarAsBuilt(BaseModel):
     def vector(self) -> Array:
         """The numbers in the order of `PARAMETERS`, shape (10,)."""
         return np.array([getattr(self, name) for name in PARAMETERS])
+
+    def forward(self, rho1_mm: float, rho2_mm: float) -> PlatformPosition:
+        """Position of V for given actuators, as `forward_many` finds it.
+
+        Raises:
+            LegsCannotCloseError: the legs do not reach each other.
+        """
+        # plain floats: a simulated robot asks this many times a second
+        left_mm, right_mm = self.left_scale * rho1_mm, self.right_scale * rho2_mm
+        x1 = self.left_foot_x_mm + left_mm * math.cos(self.left_rail_rad)
+        y1 = self.left_foot_y_mm + left_mm * math.sin(self.left_rail_rad)
+        dx = self.right_foot_x_mm - right_mm * math.cos(self.right_rail_rad) - x1
+        dy = self.right_foot_y_mm - right_mm * math.sin(self.right_rail_rad) - y1
+        distance_sq = dx * dx + dy * dy
+        reach = self.left_leg_mm**2 / distance_sq if distance_sq else math.nan
+        along = 0.5 + 0.5 * (reach - self.right_leg_mm**2 / distance_sq) if distance_sq else 0.0
+        rise_sq = reach - along * along
+        # "not >=" also catches NaN
+        if not rise_sq >= 0:
+            msg = f"rho1 = {rho1_mm:.1f} mm and rho2 = {rho2_mm:.1f} mm leave the legs too short"
+            raise LegsCannotCloseError(msg, {"rho1_mm": rho1_mm, "rho2_mm": rho2_mm})
+        rise = math.sqrt(rise_sq)
+        return PlatformPosition(x1 + along * dx - rise * dy, y1 + along * dy + rise * dx)
+
+    def jacobian(self, rho1_mm: float, rho2_mm: float) -> Array:
+        """J with (xdot, ydot)^T = J (rho1dot, rho2dot)^T, shape (2, 2), dimensionless.
+
+        A leg only turns, so that l . Vdot = l . Fdot for each of both.
+
+        Raises:
+            LegsCannotCloseError: the legs do not reach each other.
+        """
+        rho = np.array([rho1_mm, rho2_mm])
+        v = np.array(self.forward(rho1_mm, rho2_mm))
+        legs = v - np.stack(self._feet(rho))
+        along = [
+            scale * (leg @ rail) for leg, (_, rail, _, scale) in zip(legs, self._sides, strict=True)
+        ]
+        return np.asarray(np.linalg.solve(legs, np.diag(along)))
 
     def forward_many(self, rho_mm: Array) -> Array:
         """Platform positions of many actuator positions.

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from twin.as_built import PARAMETERS, JointCorrection, PlanarAsBuilt
 from twin.as_built.planar import Array
 from twin.geometry import RobotGeometry
-from twin.kinematics import alpha
+from twin.kinematics import LegsCannotCloseError, alpha
 
 DRAWN = RobotGeometry()
 RHO = np.array([[120.0, 110.0], [20.0, 380.0], [380.0, 30.0], [200.0, 200.0], [330.0, 120.0]])
@@ -71,8 +71,26 @@ def test_derivatives_are_the_slopes(built: PlanarAsBuilt) -> None:
         np.testing.assert_allclose(found[..., number], slope, rtol=1e-5, atol=1e-4, err_msg=name)
 
 
+@given(built_robots())
+def test_one_pose_is_as_many(built: PlanarAsBuilt) -> None:
+    for rho, v in zip(RHO, built.forward_many(RHO), strict=True):
+        np.testing.assert_allclose(built.forward(*rho), v, rtol=0, atol=1e-9)
+
+
+@given(built_robots())
+def test_the_jacobian_is_the_slope(built: PlanarAsBuilt) -> None:
+    for rho in RHO:
+        slopes = [
+            (built.forward_many(rho + step) - built.forward_many(rho - step)) / 2e-3
+            for step in 1e-3 * np.eye(2)
+        ]
+        np.testing.assert_allclose(built.jacobian(*rho), np.column_stack(slopes), atol=1e-6)
+
+
 def test_what_cannot_close_is_not_a_number() -> None:
     built = PlanarAsBuilt.as_drawn(DRAWN)
+    with pytest.raises(LegsCannotCloseError, match="too short"):
+        built.forward(-200.0, -200.0)
     assert np.isnan(built.forward_many(np.array([[-200.0, -200.0]]))).any()
     assert np.isnan(built.inverse_many(np.array([[650.0, 600.0]]))).any()
 
