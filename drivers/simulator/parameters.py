@@ -45,8 +45,10 @@ class BuildErrors(Parameters):
 
     @classmethod
     def before_calibration(cls) -> Self:
-        """What a drill, a printer and a cheap lens leave: two standard deviations are 3 mm, half a
-        degree of skew, 0.5 % of belt, 5 mm and 3 degrees of camera, 1 % of focal length.
+        """What a drill, a printer and a cheap lens leave.
+
+        Two standard deviations are 3 mm, half a degree of skew, 0.5 % of belt, 5 mm and 3 degrees
+        of camera, and 1 % of focal length.
         """
         return cls(
             length_std_mm=1.5,
