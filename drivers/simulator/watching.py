@@ -30,7 +30,7 @@ def camera_view(
     base_platform = poses.pose(np.eye(3), np.array([v.x_mm, v.y_mm, 0.0]))
     camera_base = poses.inverse(base_platform @ platform_camera)
     carriages = state.carriages
-    jacobian = plant.mechanism.jacobian(carriages.rho1_mm, carriages.rho2_mm)
+    jacobian = plant.mechanism.jacobians_many(np.array(carriages[:2]))
     camera_velocity = np.zeros(3)
     camera_velocity[:2] = jacobian @ np.array(state.velocity[:2])
     return CameraView(

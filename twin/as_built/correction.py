@@ -53,3 +53,20 @@ class JointCorrection:
         """
         v = self.built.forward_many(joints_mm[..., :2])
         return np.concatenate((alpha.inverse_many(self.drawn, v), joints_mm[..., 2:]), axis=-1)
+
+    def rates_many(self, joints_mm: Array) -> Array:
+        """How fast the board's joints move for joints of the drawing: J_built^-1 J_drawn.
+
+        Args:
+            joints_mm: Of the drawing, shape (..., 3) [mm].
+
+        Returns:
+            Matrices, shape (..., 3, 3).
+        """
+        board = self.to_board_many(joints_mm)
+        drawn = PlanarAsBuilt.as_drawn(self.drawn).jacobians_many(joints_mm[..., :2])
+        built = self.built.jacobians_many(board[..., :2])
+        rates = np.zeros((*joints_mm.shape[:-1], 3, 3))
+        rates[..., :2, :2] = np.linalg.solve(built, drawn)
+        rates[..., 2, 2] = 1.0
+        return rates

@@ -93,22 +93,6 @@ class PlanarAsBuilt(BaseModel):
         rise = math.sqrt(rise_sq)
         return PlatformPosition(x1 + along * dx - rise * dy, y1 + along * dy + rise * dx)
 
-    def jacobian(self, rho1_mm: float, rho2_mm: float) -> Array:
-        """J with (xdot, ydot)^T = J (rho1dot, rho2dot)^T, shape (2, 2), dimensionless.
-
-        A leg only turns, so that l . Vdot = l . Fdot for each of both.
-
-        Raises:
-            LegsCannotCloseError: the legs do not reach each other.
-        """
-        rho = np.array([rho1_mm, rho2_mm])
-        v = np.array(self.forward(rho1_mm, rho2_mm))
-        legs = v - np.stack(self._feet(rho))
-        along = [
-            scale * (leg @ rail) for leg, (_, rail, _, scale) in zip(legs, self._sides, strict=True)
-        ]
-        return np.asarray(np.linalg.solve(legs, np.diag(along)))
-
     def forward_many(self, rho_mm: Array) -> Array:
         """Platform positions of many actuator positions.
 
@@ -149,6 +133,28 @@ class PlanarAsBuilt(BaseModel):
             with np.errstate(invalid="ignore"):
                 rho.append((along - np.sqrt(leg_mm**2 - across_sq)) / scale)
         return np.stack(rho, axis=-1)
+
+    def jacobians_many(self, rho_mm: Array) -> Array:
+        """J with (xdot, ydot)^T = J (rho1dot, rho2dot)^T, dimensionless.
+
+        A leg only turns, so that l . Vdot = l . Fdot for each of both.
+
+        Args:
+            rho_mm: (rho1, rho2), shape (..., 2) [mm].
+
+        Returns:
+            Shape (..., 2, 2); NaN where the legs cannot close.
+        """
+        v = self.forward_many(rho_mm)
+        legs = np.stack([v - foot for foot in self._feet(rho_mm)], axis=-2)
+        along = np.stack(
+            [
+                scale * (legs[..., side, :] @ rail)
+                for side, (_, rail, _, scale) in enumerate(self._sides)
+            ],
+            axis=-1,
+        )
+        return np.asarray(np.linalg.solve(legs, along[..., None] * np.eye(2)))
 
     def derivatives_many(self, rho_mm: Array, v_mm: Array) -> Array:
         """How V changes with each of the ten numbers, the actuators held.

@@ -84,7 +84,7 @@ def test_the_jacobian_is_the_slope(built: PlanarAsBuilt) -> None:
             (built.forward_many(rho + step) - built.forward_many(rho - step)) / 2e-3
             for step in 1e-3 * np.eye(2)
         ]
-        np.testing.assert_allclose(built.jacobian(*rho), np.column_stack(slopes), atol=1e-6)
+        np.testing.assert_allclose(built.jacobians_many(rho), np.column_stack(slopes), atol=1e-6)
 
 
 def test_what_cannot_close_is_not_a_number() -> None:
