@@ -1,0 +1,1 @@
+"""One axis at a time: its switch, its belt, its play."""
