@@ -30,7 +30,8 @@ def test_a_line_of_hits() -> None:
 
 def test_play_shows_as_variation_between_directions() -> None:
     hits = CENTRE + np.zeros((3, 2))
-    found = place_result(CENTRE, {"left": hits - np.array([0.1, 0.0]), "right": hits + np.array([0.2, 0.0])})
+    shift = np.array([0.1, 0.0])
+    found = place_result(CENTRE, {"left": hits - shift, "right": hits + 2 * shift})
     assert found.direction_variation_mm == pytest.approx(0.3)
     assert found.accuracy_mm == pytest.approx(0.05)
 
