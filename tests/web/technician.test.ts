@@ -171,6 +171,21 @@ describe("what is not open", () => {
   });
 });
 
+describe("the way left", () => {
+  test("is on every button before it is reached, and an end is closed", async () => {
+    const open = { back_mm: 40, on_mm: 112.4 };
+    const reach = { x: { back_mm: 0, on_mm: 200 }, y: open, insertion: open, rho1: open, rho2: open, rho3: open };
+    rest.answer("GET /robot/reach", [200, reach]);
+    const joints = { rho1_mm: 1, rho2_mm: 2, rho3_mm: 3 };
+    show(live({ robot: robot({ commanded: { joints, tip: null } }) }));
+    await waitFor(() => expect(button("Up").textContent).toBe("112 mm"));
+    expect(button("Back along the rail").textContent).toBe("end");
+    expect(button("Back along the rail").disabled).toBe(true);
+    show(live({ robot: robot({ mode: "moving", commanded: { joints, tip: null } }) }));
+    await waitFor(() => expect(button("Up").textContent).toBe(""));
+  });
+});
+
 describe("stop", () => {
   test("is there in every state and needs one press", async () => {
     show(live({ robot: robot({ mode: "off" }) }));

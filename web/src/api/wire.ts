@@ -25,6 +25,7 @@ export type DeltaMessage = Schemas["DeltaMessage"];
 export type ReplyMessage = Schemas["ReplyMessage"];
 export type ServerMessage = SnapshotMessage | DeltaMessage | ReplyMessage;
 
+export type Reach = Schemas["Reach"];
 export type JogMessage = Schemas["JogMessage"];
 export type JogStepMessage = Schemas["JogStepMessage"];
 export type JogAxis = JogMessage["axis"];

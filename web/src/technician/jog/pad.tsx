@@ -5,6 +5,7 @@ import { FRAMES, sameWay, wayOfKey } from "./axes";
 import type { Direction, Frame, Way } from "./axes";
 import { releaseWithTheHand } from "./dead-man";
 import { followGamepad } from "./gamepad";
+import { followReach, wayLeft_mm } from "./reach";
 import {
   deadMan,
   frame,
@@ -25,6 +26,7 @@ export function JogPad() {
   const box = useRef<HTMLElement>(null);
   useEffect(() => releaseWithTheHand(deadMan), []);
   useEffect(() => followGamepad(), []);
+  useEffect(() => followReach(), []);
   const onKeyDown = (event: KeyboardEvent): void => {
     if (event.target instanceof HTMLInputElement || event.ctrlKey || event.metaKey || event.altKey) {
       return;
@@ -153,11 +155,12 @@ const ARROWS: Record<JogAxis, Record<Direction, string>> = {
 
 function JogButton({ way }: { way: Way }) {
   const held = sameWay(deadMan.held.value, way);
+  const left_mm = wayLeft_mm(way);
   return (
     <button
       type="button"
       class="button jog-button"
-      disabled={!held && (!isOpen(way) || stepping.value)}
+      disabled={!held && (!isOpen(way) || stepping.value || left_mm === 0)}
       data-held={held}
       aria-label={say.jog.ways[way.axis][way.direction]}
       onPointerDown={(event) => {
@@ -177,6 +180,7 @@ function JogButton({ way }: { way: Way }) {
       <svg viewBox="0 0 24 24" aria-hidden="true">
         <path d={ARROWS[way.axis][way.direction]} />
       </svg>
+      <small>{left_mm === null ? "" : say.jog.left(left_mm)}</small>
     </button>
   );
 }
