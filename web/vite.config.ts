@@ -39,6 +39,7 @@ export default defineConfig({
     target: "es2022",
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
+    rolldownOptions: { input: ["index.html", "technician.html"].map((page) => path.join(here, page)) },
   },
   server: {
     fs: { allow: [".."] },

@@ -55,23 +55,24 @@ _NOT_BUILT = """<!doctype html>
 
 
 def pages_router(static_dir: Path) -> APIRouter:
-    """Routes of the home page and its assets.
+    """Routes of the pages and their assets.
 
     Files are read for every request, so that a new build shows without a restart.
 
     Args:
-        static_dir: What ``npm run build`` wrote: ``index.html`` and ``assets/`` with hashed
+        static_dir: What ``npm run build`` wrote: a file for each page and ``assets/`` with hashed
             names, each with a ``.gz`` beside it where that is smaller. When it is missing, the
-            home page answers 503 and says what to do.
+            pages answer 503 and say what to do.
     """
     router = APIRouter(include_in_schema=False)
 
     @router.api_route("/", methods=["GET", "HEAD"])
     def home(request: Request) -> Response:
-        index = static_dir / "index.html"
-        if not index.is_file():
-            return HTMLResponse(_NOT_BUILT, status_code=503, headers=_PAGE_HEADERS)
-        return _revalidated(request, index)
+        return _page(request, static_dir / "index.html")
+
+    @router.api_route("/technician", methods=["GET", "HEAD"])
+    def technician(request: Request) -> Response:
+        return _page(request, static_dir / "technician.html")
 
     @router.api_route("/assets/{name}", methods=["GET", "HEAD"])
     def asset(request: Request, name: str) -> Response:
@@ -85,9 +86,11 @@ def pages_router(static_dir: Path) -> APIRouter:
     return router
 
 
-def _revalidated(request: Request, index: Path) -> Response:
+def _page(request: Request, page: Path) -> Response:
     """The page, or 304 when the browser has this very one."""
-    body, encoding = _contents(request, index)
+    if not page.is_file():
+        return HTMLResponse(_NOT_BUILT, status_code=503, headers=_PAGE_HEADERS)
+    body, encoding = _contents(request, page)
     headers = _PAGE_HEADERS | encoding
     headers["ETag"] = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
     if headers["ETag"] in request.headers.get("if-none-match", ""):

@@ -7,7 +7,7 @@ import logging
 from functools import partial
 from typing import Literal
 
-from server.control.errors import ControlError, MotionOutOfReachError
+from server.control.errors import ControlError, MotionOutOfReachError, RobotNotReadyError
 from server.control.lease import Lease
 from server.control.motion import Motion
 from server.control.supervisor import Supervisor
@@ -134,8 +134,30 @@ class Jog:
         except TwinError as error:
             raise MotionOutOfReachError(str(error)) from error
 
+    def ways_left_mm(self) -> dict[Axis, tuple[float, float]]:
+        """How far each axis can go back and on, less a margin [mm].
+
+        Raises:
+            RobotOfflineError: there is no telemetry.
+            RobotNotReadyError: nobody knows where the joints are.
+        """
+        if not self._supervisor.telemetry.require().homed:
+            raise RobotNotReadyError(
+                "The robot does not know its position."
+            )
+        return {
+            axis: (self._way_mm(axis, -1), self._way_mm(axis, 1))
+            for axis in ("x", "y", "insertion", "rho1", "rho2", "rho3")
+        }
+
     def _way_left_mm(self, axis: Axis, direction: int) -> float:
-        """How far the axis can go in a direction, less a margin [mm]."""
+        way_mm = self._way_mm(axis, direction)
+        if way_mm <= 0:
+            raise MotionOutOfReachError(f"{axis} is at the end of its travel.", axis=axis)
+        return way_mm
+
+    def _way_mm(self, axis: Axis, direction: int) -> float:
+        """How far the axis can go in a direction, less a margin; 0 at the end [mm]."""
         geometry = self._supervisor.geometry
         start = self._supervisor.telemetry.require().commanded.position
         way_mm, stride_mm = 0.0, FIRST_STRIDE_MM
@@ -144,9 +166,7 @@ class Jog:
                 way_mm += stride_mm
             else:
                 stride_mm /= 2
-        if way_mm <= LIMIT_MARGIN_MM:
-            raise MotionOutOfReachError(f"{axis} is at the end of its travel.", axis=axis)
-        return way_mm - LIMIT_MARGIN_MM
+        return max(way_mm - LIMIT_MARGIN_MM, 0.0)
 
 
 def _can_stand(

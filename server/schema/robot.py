@@ -92,6 +92,24 @@ class JogStep(Wire):
     speed_mm_s: Annotated[float, Field(ge=0.5, le=20, allow_inf_nan=False)] = 10.0
 
 
+class WayLeft(Wire):
+    """How far an axis can still go [mm]; the plug's place may forbid it all the same."""
+
+    back_mm: float = Field(ge=0, examples=[112.5])
+    on_mm: float = Field(ge=0, examples=[207.0])
+
+
+class Reach(Wire):
+    """What is left of each axis before a joint limit, the workspace or a singularity."""
+
+    x: WayLeft
+    y: WayLeft
+    insertion: WayLeft
+    rho1: WayLeft
+    rho2: WayLeft
+    rho3: WayLeft
+
+
 class PlugConfirmation(Wire):
     """A person has looked: the plug is out of the car."""
 

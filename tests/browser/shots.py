@@ -1,8 +1,9 @@
-"""Pictures of the home page in every state: ``python -m tests.browser.shots FOLDER [STATE...]``."""
+"""Pictures of the pages in every state: ``python -m tests.browser.shots FOLDER [STATE...]``."""
 
 from __future__ import annotations
 
 import sys
+from itertools import product
 from pathlib import Path
 from typing import Literal
 
@@ -11,11 +12,12 @@ from tests.browser.scenes import SCENES
 from tests.browser.stage import Stage, serve
 
 SIZES = {"phone": PHONE, "desktop": DESKTOP}
+PAGES = {"home": "/", "technician": "/technician"}
 SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 
 
 def main() -> None:
-    """Writes FOLDER/web-<state>-<size>-<scheme>.png."""
+    """Writes FOLDER/<page>-<state>-<size>-<scheme>.png."""
     folder, *names = sys.argv[1:]
     stage = Stage()
     with serve(stage) as address, chromium() as browser:
@@ -27,11 +29,11 @@ def main() -> None:
                     device_scale_factor=1,
                     reduced_motion="reduce",
                 )
-                for name in names or SCENES:
+                for (which, path), name in product(PAGES.items(), names or SCENES):
                     stage.live = SCENES[name]
-                    page.goto(address)
+                    page.goto(address + path)
                     page.locator(".link[data-link=live]").wait_for()
-                    page.screenshot(path=Path(folder) / f"web-{name}-{size}-{scheme}.png")
+                    page.screenshot(path=Path(folder) / f"{which}-{name}-{size}-{scheme}.png")
                 page.close()
 
 

@@ -18,6 +18,7 @@ from server.api.pages import pages_router
 from server.jobs.model import JobPhase, JobState
 from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
+from server.schema.robot import Reach, WayLeft
 from server.schema.vehicles import Vehicle, VehicleList
 from tests.browser.scenes import LABEL_NOT_FOUND, SCENES, job
 
@@ -47,6 +48,12 @@ PLAYBACK = Playback(
 )
 
 
+_WAY = WayLeft(back_mm=112.5, on_mm=207.0)
+REACH = Reach(
+    x=_WAY, y=_WAY, insertion=WayLeft(back_mm=0, on_mm=57.5), rho1=_WAY, rho2=_WAY, rho3=_WAY
+)
+
+
 class Stage:
     """What the pages are shown, and what they asked for.
 
@@ -66,6 +73,7 @@ class Stage:
         self.app.get("/api/v1/vehicles")(self._vehicles)
         self.app.get("/api/v1/jobs")(self._jobs)
         self.app.get("/api/v1/jobs/{job_id}/playback")(self._playback)
+        self.app.get("/api/v1/robot/reach")(self._reach)
         self.app.get("/twin/")(self._twin)
         self.app.post("/api/v1/{rest:path}")(self._accept)
 
@@ -106,6 +114,9 @@ class Stage:
     async def _playback(self, job_id: str) -> Playback:
         assert job_id == PAST_JOB.id
         return PLAYBACK
+
+    async def _reach(self) -> Reach:
+        return REACH
 
     async def _twin(self) -> HTMLResponse:
         return HTMLResponse('<!doctype html><html lang="en"><title>3D</title><p>3D</p></html>')

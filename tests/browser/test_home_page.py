@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import pytest
 from playwright.sync_api import Browser, Page, Response, expect
 
+from tests.browser.axe import violations
 from tests.browser.chromium import DESKTOP, PHONE
 from tests.browser.scenes import SCENES
 from tests.browser.stage import Stage
 
-AXE = Path(__file__).resolve().parents[2] / "web/node_modules/axe-core/axe.min.js"
 LARGE_TEXT = "html { font-size: 200% }"
 
 MAX_REQUESTS = 10
@@ -58,19 +57,10 @@ def _open(page: Page, address: str, stage: Stage, scene: str) -> None:
     page.locator(".link[data-link=live]").wait_for()
 
 
-def _violations(page: Page) -> list[str]:
-    """Rules of axe that the page breaks, with the elements."""
-    if not AXE.exists():
-        pytest.skip("needs axe-core: run `npm ci` in web/")
-    page.evaluate(AXE.read_text(encoding="utf-8"))
-    found: list[dict[str, Any]] = page.evaluate("() => axe.run().then((r) => r.violations)")
-    return [f"{each['id']}: {[node['html'] for node in each['nodes']]}" for each in found]
-
-
 @pytest.mark.parametrize("scene", SCENES)
 def test_every_state_is_accessible(page: Page, address: str, stage: Stage, scene: str) -> None:
     _open(page, address, stage, scene)
-    assert _violations(page) == []
+    assert violations(page) == []
 
 
 def test_dialogs_and_details_are_accessible(page: Page, address: str, stage: Stage) -> None:
@@ -81,7 +71,7 @@ def test_dialogs_and_details_are_accessible(page: Page, address: str, stage: Sta
     page.get_by_role("button", name="Emergency stop").wait_for()
     page.get_by_role("button", name="Charge").click()
     page.get_by_role("dialog").wait_for()
-    assert _violations(page) == []
+    assert violations(page) == []
 
 
 def test_a_recorded_job_can_be_watched_with_a_thumb(page: Page, address: str, stage: Stage) -> None:
@@ -95,7 +85,7 @@ def test_a_recorded_job_can_be_watched_with_a_thumb(page: Page, address: str, st
         assert box["height"] >= MIN_TARGET_PX, target.inner_text()
         assert box["x"] + box["width"] <= PHONE["width"]
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-    assert _violations(page) == []
+    assert violations(page) == []
     page.get_by_role("button", name="Close").click()
     expect(page.get_by_role("dialog")).to_have_count(0)
 

@@ -245,6 +245,7 @@ export const words = {
     enable: "Switch on",
     disable: "Switch off",
     home: "Find position",
+    technician: "Technician’s page",
     modes,
     plugStates,
     unknown: "not known",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 from fastapi import APIRouter
 
 from server.api.dependencies import ServicesDep
@@ -9,7 +11,7 @@ from server.api.problems import problem_responses
 from server.control.errors import LateralMotionForbiddenError
 from server.control.model import PlugState
 from server.live.views import robot_view
-from server.schema.robot import JogStep, PlugConfirmation, Robot
+from server.schema.robot import JogStep, PlugConfirmation, Reach, Robot, WayLeft
 from server.services import Services
 
 router = APIRouter(prefix="/robot", tags=["robot"])
@@ -25,6 +27,14 @@ def _now(services: Services) -> Robot:
 async def get_robot(services: ServicesDep) -> Robot:
     """The robot now."""
     return _now(services)
+
+
+@router.get("/reach", operation_id="getRobotReach", responses=_REFUSALS)
+async def get_reach(services: ServicesDep) -> Reach:
+    """How far each axis can still go from here."""
+    # Some milliseconds of kinematics, which the control loop shall not wait for.
+    ways = await asyncio.to_thread(services.jog.ways_left_mm)
+    return Reach(**{axis: WayLeft(back_mm=back, on_mm=on) for axis, (back, on) in ways.items()})
 
 
 @router.post("/stop", operation_id="stopRobot")

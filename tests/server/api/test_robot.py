@@ -21,10 +21,14 @@ def test_a_technician_takes_the_robot_into_use_and_jogs_it() -> None:
         assert (await _robot(client)).mode == "off"
         problem(await client.post("robot/jog", json=step), 409, "robot_not_ready")
         assert (await client.post("robot/enable")).json()["mode"] == "not_homed"
+        problem(await client.get("robot/reach"), 409, "robot_not_ready")
         home = Robot.model_validate_json((await client.post("robot/home")).content)
         assert home.mode == "ready"
         assert home.homed
         assert home.control is None
+        reach = (await client.get("robot/reach")).json()
+        assert reach["x"]["on_mm"] > 100
+        assert reach["rho3"]["back_mm"] == 0
         before = scene.truth().T_base_plug[0, 3]
         assert (await client.post("robot/jog", json=step)).status_code == 200
         await scene.later(0.3)

@@ -131,6 +131,23 @@ def test_every_axis_can_be_held_to_the_end_of_its_travel_and_no_further(
     in_cell(scenario, STANDING)
 
 
+def test_what_is_left_of_each_axis_is_told_before_it_is_reached() -> None:
+    async def scenario(cell: RobotCell) -> None:
+        cell.garage.world.remove_car()
+        ways = cell.jog.ways_left_mm()
+        assert set(ways) == set(get_args(Axis))
+        start = gamma.forward(GEOMETRY, cell.now)
+        with pytest.raises(MotionOutOfReachError):
+            await keep_holding(cell, "x", 1, 30.0)
+        end = gamma.forward(GEOMETRY, cell.now)
+        assert end.x_mm - start.x_mm == pytest.approx(ways["x"][1], abs=1.0)
+        left = cell.jog.ways_left_mm()["x"]
+        assert left[1] < 1.0
+        assert left[0] == pytest.approx(ways["x"][0] + ways["x"][1], abs=2.0)
+
+    in_cell(scenario, STANDING)
+
+
 def test_a_step_goes_as_far_as_asked_and_not_beyond_the_limits() -> None:
     async def scenario(cell: RobotCell) -> None:
         before = gamma.forward(GEOMETRY, cell.now)

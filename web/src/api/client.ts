@@ -1,7 +1,7 @@
 /** Calls to the REST API; every failure becomes a Refusal with words for a person. */
 import { words } from "@/words";
 import { randomKey } from "./key";
-import type { Job, JobPage, JobRequest, Playback, StopKind, VehicleList } from "./wire";
+import type { Job, JobPage, JobRequest, Playback, Reach, StopKind, VehicleList } from "./wire";
 
 const ROOT = "/api/v1";
 const PATIENCE_MS = 10_000;
@@ -99,6 +99,9 @@ export const listJobs = (): Promise<JobPage> => call(`/jobs?limit=${String(JOBS_
 /** Makes a recorded job ready to be watched; the first time takes some seconds. */
 export const preparePlayback = (id: string): Promise<Playback> =>
   call(`/jobs/${encodeURIComponent(id)}/playback`, { patienceMs: PLAYBACK_PATIENCE_MS });
+
+/** How far each axis can still go from here. */
+export const readReach = (): Promise<Reach> => call("/robot/reach");
 
 export const listVehicles = (): Promise<VehicleList> => call("/vehicles");
 

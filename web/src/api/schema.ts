@@ -371,6 +371,26 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/reach": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Get Reach
+         * @description How far each axis can still go from here.
+         */
+        readonly get: operations["getRobotReach"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot/reset": {
         readonly parameters: {
             readonly query?: never;
@@ -1059,6 +1079,18 @@ export interface components {
          */
         readonly Quantity: "rho1" | "rho2" | "rho3" | "set_point" | "force" | "socket" | "phase_time";
         /**
+         * Reach
+         * @description What is left of each axis before a joint limit, the workspace or a singularity.
+         */
+        readonly Reach: {
+            readonly insertion: components["schemas"]["WayLeft"];
+            readonly rho1: components["schemas"]["WayLeft"];
+            readonly rho2: components["schemas"]["WayLeft"];
+            readonly rho3: components["schemas"]["WayLeft"];
+            readonly x: components["schemas"]["WayLeft"];
+            readonly y: components["schemas"]["WayLeft"];
+        };
+        /**
          * RecordingInfo
          * @description What was recorded of a job: GET /api/v1/jobs/{id}/recording.
          */
@@ -1419,6 +1451,22 @@ export interface components {
              *     }
              */
             readonly socket?: components["schemas"]["SocketOffset"];
+        };
+        /**
+         * WayLeft
+         * @description How far an axis can still go [mm]; the plug's place may forbid it all the same.
+         */
+        readonly WayLeft: {
+            /**
+             * Back Mm
+             * @example 112.5
+             */
+            readonly back_mm: number;
+            /**
+             * On Mm
+             * @example 207
+             */
+            readonly on_mm: number;
         };
     };
     responses: never;
@@ -2323,6 +2371,53 @@ export interface operations {
             };
             /** @description Unprocessable Entity */
             readonly 422: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly getRobotReach: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/json": components["schemas"]["Reach"];
+                };
+            };
+            /** @description Conflict */
+            readonly 409: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Service Unavailable */
+            readonly 503: {
                 headers: {
                     readonly [name: string]: unknown;
                 };

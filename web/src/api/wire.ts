@@ -25,6 +25,15 @@ export type DeltaMessage = Schemas["DeltaMessage"];
 export type ReplyMessage = Schemas["ReplyMessage"];
 export type ServerMessage = SnapshotMessage | DeltaMessage | ReplyMessage;
 
+export type Reach = Schemas["Reach"];
+export type JogMessage = Schemas["JogMessage"];
+export type JogStepMessage = Schemas["JogStepMessage"];
+export type JogAxis = JogMessage["axis"];
+export type ClientMessage = Schemas["ClientMessage"];
+/** A message whose answer is awaited: the channel numbers it. */
+export type Question = DistributiveOmit<ClientMessage, "id">;
+type DistributiveOmit<T, K extends keyof T> = T extends unknown ? Omit<T, K> : never;
+
 export type StopKind = "stop" | "emergency_stop";
 
 /** The one protocol version this page speaks. */

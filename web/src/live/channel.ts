@@ -1,5 +1,5 @@
 /** The WebSocket to the server: stays connected for ever, feeds the store, carries stops. */
-import type { ReplyMessage, ServerMessage, StopKind } from "@/api/wire";
+import type { ClientMessage, Question, ReplyMessage, ServerMessage, StopKind } from "@/api/wire";
 import type { LiveStore } from "./store";
 
 const BACK_OFF_MS = [250, 500, 1000, 2000, 4000, 8000] as const;
@@ -65,20 +65,31 @@ export class LiveChannel {
   }
 
   /** Sends a stop; resolves to whether the server confirmed it in time. */
-  stop(kind: StopKind): Promise<boolean> {
-    const { socket } = this;
-    if (socket === null || socket.readyState !== WebSocket.OPEN) return Promise.resolve(false);
+  async stop(kind: StopKind): Promise<boolean> {
+    return (await this.ask({ type: kind }))?.ok ?? false;
+  }
+
+  /** Sends a message; resolves to its answer, or null when none came in time. */
+  ask(message: Question, patienceMs = REPLY_PATIENCE_MS): Promise<ReplyMessage | null> {
     const id = this.nextId++;
+    if (!this.tell({ ...message, id })) return Promise.resolve(null);
     return new Promise((resolve) => {
-      const end = (ok: boolean): void => {
+      const end = (reply: ReplyMessage | null): void => {
         clearTimeout(timer);
         this.waiting.delete(id);
-        resolve(ok);
+        resolve(reply);
       };
-      const timer = setTimeout(() => end(false), REPLY_PATIENCE_MS);
-      this.waiting.set(id, (reply) => end(reply.ok));
-      socket.send(JSON.stringify({ type: kind, id }));
+      const timer = setTimeout(() => end(null), patienceMs);
+      this.waiting.set(id, end);
     });
+  }
+
+  /** Sends a message that needs no answer; false when there is no connection. */
+  tell(message: ClientMessage): boolean {
+    const { socket } = this;
+    if (socket === null || socket.readyState !== WebSocket.OPEN) return false;
+    socket.send(JSON.stringify(message));
+    return true;
   }
 
   private connect(): void {

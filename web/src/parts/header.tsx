@@ -19,13 +19,13 @@ export function Header() {
   const quiet = link === "live" && store.stale.value;
   return (
     <header class="header">
-      <span class="brand">
+      <a class="brand" href="/">
         <svg viewBox="0 0 32 32" aria-hidden="true">
           <rect width="32" height="32" rx="9" />
           <path d="M18 5 9 18h6l-1 9 9-13h-6z" />
         </svg>
         PlugPilot
-      </span>
+      </a>
       {badge !== null && <span class="badge">{badge}</span>}
       <span class="link" data-link={quiet ? "quiet" : link} role="status">
         {quiet ? words.link.quiet : words.link[link]}

@@ -72,6 +72,9 @@ function RobotFigures() {
           {say.home}
         </button>
       </div>
+      <a class="button technician-link" href="/technician">
+        {say.technician}
+      </a>
       <button
         type="button"
         class="stop emergency"

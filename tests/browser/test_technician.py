@@ -1,0 +1,149 @@
+"""The technician's page in a real browser against the real server: jogging ends with the hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import httpx
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, expect
+
+from tests.browser.axe import violations
+from tests.browser.chromium import DESKTOP, PHONE
+from tests.browser.scenes import SCENES
+from tests.browser.stage import Stage
+from tests.support.process import ServerProcess, serving
+
+MOVED_MM = 1.0
+COAST_MM = 2.0
+"""A joint at 5 mm/s with 250 ms of silence and a ramp goes no further."""
+MIN_TARGET_PX = 44
+
+RHO1 = ".values tbody tr:first-child td:nth-of-type(2)"
+BEYOND = """([cell, limit, sign]) =>
+    sign * (parseFloat(document.querySelector(cell).textContent) - limit) > 0"""
+
+
+@pytest.fixture(scope="module")
+def server(browser: Browser) -> Iterator[ServerProcess]:
+    """The real server on the simulator, at the pace of a real robot, made ready on the page."""
+    with serving("--speed", "1", "--seed", "3") as running:
+        page = browser.new_page()
+        page.goto(f"{running.url}/technician")
+        page.get_by_role("button", name="Switch drives on").click()
+        page.get_by_role("button", name="Find position").click()
+        expect(page.get_by_role("button", name="Up", exact=True)).to_be_enabled(timeout=60_000)
+        page.close()
+        yield running
+
+
+@pytest.fixture
+def context(browser: Browser) -> Iterator[BrowserContext]:
+    """A laptop."""
+    context = browser.new_context(viewport={"width": DESKTOP["width"], "height": DESKTOP["height"]})
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def bench(context: BrowserContext, server: ServerProcess) -> Iterator[Page]:
+    """The page, live; it may not meet a single script error."""
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(f"{server.url}/technician")
+    expect(page.get_by_role("button", name="Up", exact=True)).to_be_enabled()
+    yield page
+    assert errors == []
+
+
+def test_the_robot_moves_while_the_button_is_held_and_no_longer(
+    bench: Page, server: ServerProcess
+) -> None:
+    began_mm = _rho1_mm(server)
+    _hold(bench, "On along the rail")
+    _moves_beyond(bench, began_mm + MOVED_MM)
+    bench.mouse.up()
+    _comes_to_rest_near(bench, server, _rho1_mm(server))
+
+
+def test_a_page_that_is_closed_lets_go(
+    bench: Page, context: BrowserContext, server: ServerProcess
+) -> None:
+    second = context.new_page()
+    second.goto(f"{server.url}/technician")
+    expect(second.get_by_role("button", name="Up", exact=True)).to_be_enabled()
+    began_mm = _rho1_mm(server)
+    _hold(second, "Back along the rail")
+    _moves_beyond(bench, began_mm - MOVED_MM, sign=-1)
+    second.close()
+    _comes_to_rest_near(bench, server, _rho1_mm(server))
+
+
+def test_a_page_that_loses_the_focus_lets_go(bench: Page, server: ServerProcess) -> None:
+    began_mm = _rho1_mm(server)
+    _hold(bench, "On along the rail")
+    _moves_beyond(bench, began_mm + MOVED_MM)
+    bench.evaluate("dispatchEvent(new Event('blur'))")
+    _comes_to_rest_near(bench, server, _rho1_mm(server))
+    bench.mouse.up()
+
+
+def test_a_step_moves_one_joint_by_its_distance(bench: Page, server: ServerProcess) -> None:
+    bench.get_by_role("button", name="Joints").click()
+    bench.get_by_role("button", name="1", exact=True).first.click()
+    began_mm = _rho1_mm(server)
+    bench.get_by_role("button", name="Left carriage on").click()
+    _moves_beyond(bench, began_mm + 0.98)
+    expect(bench.get_by_role("button", name="Left carriage on")).to_be_enabled()
+    assert abs(_rho1_mm(server) - began_mm - 1.0) < 0.02
+
+
+def test_the_space_bar_stops_and_the_stop_is_released_here(
+    bench: Page, server: ServerProcess
+) -> None:
+    began_mm = _rho1_mm(server)
+    _hold(bench, "Back along the rail")
+    _moves_beyond(bench, began_mm - MOVED_MM, sign=-1)
+    bench.keyboard.press("Space")
+    bench.get_by_role("button", name="Release the stop").click()
+    bench.mouse.up()
+    bench.get_by_role("dialog").get_by_role("button", name="Yes, release").click()
+    expect(bench.get_by_role("button", name="Up", exact=True)).to_be_enabled()
+
+
+@pytest.mark.parametrize("scene", ["ready", "jog", "emergency", "fault", "off", "offline"])
+def test_every_state_is_accessible_and_large_enough_to_touch(
+    browser: Browser, address: str, stage: Stage, scene: str
+) -> None:
+    stage.live = SCENES[scene]
+    page = browser.new_page(viewport={"width": PHONE["width"], "height": PHONE["height"]})
+    page.goto(f"{address}/technician")
+    page.locator(".link[data-link=live]").wait_for()
+    page.locator(".uplot").first.wait_for()
+    assert violations(page) == []
+    for target in page.get_by_role("button").all():
+        box = target.bounding_box()
+        assert box is not None
+        assert min(box["width"], box["height"]) >= MIN_TARGET_PX, target.inner_text()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    page.close()
+
+
+def _hold(page: Page, name: str) -> None:
+    page.get_by_role("button", name=name).hover()
+    page.mouse.down()
+
+
+def _rho1_mm(server: ServerProcess) -> float:
+    robot = httpx.get(f"{server.url}/api/v1/robot").json()
+    return float(robot["measured"]["joints"]["rho1_mm"])
+
+
+def _moves_beyond(page: Page, limit_mm: float, *, sign: int = 1) -> None:
+    page.wait_for_function(BEYOND, arg=[RHO1, limit_mm, sign])
+
+
+def _comes_to_rest_near(page: Page, server: ServerProcess, place_mm: float) -> None:
+    expect(page.locator(".robot-box .list dd").first).to_have_text("ready")
+    assert abs(_rho1_mm(server) - place_mm) < COAST_MM

@@ -1,0 +1,34 @@
+import { QuestionDialog } from "@/parts/dialogs";
+import { Header } from "@/parts/header";
+import { Views } from "@/parts/views";
+import { JogPad } from "./jog/pad";
+import { Plots } from "./readings/plots";
+import { Values } from "./readings/values";
+import { RobotBox } from "./robot";
+import { Stops } from "./stop";
+import { say } from "./words";
+
+/** The technician's page: everything about the robot at one glance, stop always in reach. */
+export function Technician() {
+  return (
+    <>
+      <Header />
+      <main class="bench">
+        <h1 class="unseen">{say.title}</h1>
+        <div class="column">
+          <RobotBox />
+          <Values />
+        </div>
+        <div class="column">
+          <JogPad />
+          <Views />
+        </div>
+        <div class="column">
+          <Plots />
+        </div>
+      </main>
+      <Stops />
+      <QuestionDialog />
+    </>
+  );
+}
