@@ -9,9 +9,9 @@ from server.calibration.robot.identifiability import combinations
 from server.calibration.robot.looks import LabelLook
 from server.calibration.robot.poses import choose_places, in_travelling_order
 from server.calibration.robot.solve import RobotSolution, solve_robot
-from server.calibration.robot.unknowns import MECHANISM, NAMES, Unknowns
+from server.calibration.robot.unknowns import MECHANISM, Unknowns
 from server.calibration.robot.verdict import Grade, judge
-from tests.server.calibration.robot.built import DRAWN, R_DRAWN, Workshop
+from tests.server.calibration.robot.built import DRAWN, R_DRAWN, Workshop, truth_of
 from twin.as_built import PlanarAsBuilt
 from twin.kinematics import alpha
 
@@ -52,7 +52,7 @@ def test_the_stated_covariance_holds_the_truth() -> None:
     for seed in range(200):
         robot = Workshop.robot(seed)
         found = solved(robot)
-        off = (found.unknowns.values - _truth(robot))[MECHANISM]
+        off = (found.unknowns.values - truth_of(robot))[MECHANISM]
         covariance = found.covariance[MECHANISM, MECHANISM]
         inside.append(off @ np.linalg.solve(covariance, off) < 14.067)
     # the builds are uniform, their prior is normal: looks dominate, so about 95 %
@@ -156,27 +156,3 @@ def test_too_few_places_are_refused() -> None:
     guess = Unknowns.guess(DRAWN, R_DRAWN, rho[0], np.array([0.0, 0.0, 290.0]))
     with pytest.raises(TooFewLooksError, match="from 5 places"):
         choose_places(rho, guess, Workshop.robot(0).known, 12)
-
-
-def _truth(robot: Workshop) -> np.ndarray:
-    """The unknowns of a robot in the frame of the solution: mean rail along x, left foot fixed."""
-    built = robot.built
-    mean = 0.5 * (built.left_rail_rad + built.right_rail_rad)
-    turn = np.array([[np.cos(mean), np.sin(mean)], [-np.sin(mean), np.cos(mean)]])
-    way = turn @ np.array(
-        [
-            built.right_foot_x_mm - built.left_foot_x_mm,
-            built.right_foot_y_mm - built.left_foot_y_mm,
-        ]
-    )
-    values = np.full(len(NAMES), np.nan)
-    values[MECHANISM] = [
-        built.left_leg_mm,
-        built.right_leg_mm,
-        AS_DRAWN.left_foot_x_mm + way[0],
-        AS_DRAWN.left_foot_y_mm + way[1],
-        0.5 * (built.left_rail_rad - built.right_rail_rad),
-        built.left_scale,
-        built.right_scale,
-    ]
-    return values
