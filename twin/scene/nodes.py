@@ -97,7 +97,7 @@ def set_visible(node: SceneNodeHandle, *, visible: bool) -> None:
 def place(node: SceneNodeHandle, position_mm: Vector, wxyz: Quaternion | None = None) -> None:
     """Moves a node in its parent's frame; sends nothing if it is there already.
 
-    Comparing costs as much as sending: leave the turn out for what never turns.
+    Comparing costs as much as sending: leave out what never changes.
     """
     node.position = metres(position_mm)
     if wxyz is not None:
@@ -108,3 +108,8 @@ def place_transform(node: SceneNodeHandle, transform: Pose) -> None:
     """Moves a node to a homogeneous transform."""
     node.position = metres(transform[:3, 3])
     node.wxyz = quaternion(transform[:3, :3])
+
+
+def turn_to(node: SceneNodeHandle, wxyz: Quaternion) -> None:
+    """Turns a node about its own pivot; sends nothing if it is turned so already."""
+    node.wxyz = wxyz

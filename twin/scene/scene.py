@@ -101,7 +101,12 @@ class TwinScene:
         self._charging = state.charging
 
     def animate(self, time_s: float) -> None:
-        """Moves the light along the cable while the car charges; lets alarms pulse."""
+        """Moves what takes its own time: cable, the light along it while the car charges, alarms.
+
+        Args:
+            time_s: Of any clock, growing from call to call.
+        """
+        self.robot.cable.follow(time_s)
         step = int(time_s * _LINKS_PER_S) if self._charging else None
         self.robot.cable.show_flow(step)
         self.divergence.animate(time_s)

@@ -26,7 +26,7 @@ SMALL: ViewportSize = {"width": 160, "height": 120}
 HOME = JointPosition(200.0, 200.0, 60.0)
 PICTURE = "/robot/platform/camera/view/picture"
 NODES = [
-    "/robot/bar_ab",
+    "/robot/left_carriage/bar_ab",
     "/robot/platform/plug",
     "/car/inlet",
     "/label",
