@@ -19,7 +19,7 @@ from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
 from server.timing import ScaledTimeLoop
-from twin.scene import TwinHost
+from twin.scene import Cable, TwinHost
 
 SEND_BUFFER_BYTES = 32 * 1024
 """Small, so that a slow phone is fed the newest state instead of seconds of old ones."""
@@ -75,6 +75,8 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         settings.camera.mount,
         hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
         aspect=optics.width / optics.height,
+        cable=Cable.of(settings.loads),
+        sag=settings.sag,
     )
     async with running(
         settings, folder=settings.storage.data_dir, twin=twin, wait_for_robot=False

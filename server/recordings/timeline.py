@@ -17,6 +17,7 @@ from server.recordings.topics import (
     EventRecord,
     HeaderRecord,
     JointsRecord,
+    PlanRecord,
     RobotRecord,
     SocketRecord,
     StationRecord,
@@ -25,8 +26,10 @@ from server.schema.jobs import PlaybackMark
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
+from twin.scene import Cable
 from twin.scene.playback import PlaybackFrame
-from twin.scene.state import PlugPlace, TwinState
+from twin.scene.state import PlannedPath, PlugPlace, TwinState
+from twin.statics import Loads, SagTables
 
 CHARGING = {PilotState.C.value, PilotState.D.value}
 
@@ -45,6 +48,8 @@ class RecordedRobot:
     geometry: RobotGeometry
     mount: CameraMount
     optics: CameraModel
+    cable: Cable
+    sag: SagTables
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +89,8 @@ def timeline(entries: Iterable[Entry], *, rate_hz: float, pause_s: float) -> Tim
                 robot = _robot(record)
             case RobotRecord():
                 reel.move(record, at_s)
+            case PlanRecord():
+                reel.plan(record)
             case SocketRecord():
                 reel.see(record)
             case StationRecord():
@@ -126,6 +133,13 @@ class _Reel:
         )
         if not self.frames:
             self.frames.append(PlaybackFrame(0.0, self._state))
+
+    def plan(self, record: PlanRecord) -> None:
+        path = None
+        if record.times_s:
+            tips_mm = np.array([(tip.x_mm, tip.y_mm, tip.z_mm) for tip in record.tips])
+            path = PlannedPath(np.array(record.times_s), tips_mm)
+        self._state = replace(self._state, path=path)
 
     def see(self, record: SocketRecord) -> None:
         self._state = replace(
@@ -179,6 +193,9 @@ def _robot(header: HeaderRecord) -> RecordedRobot:
         RobotGeometry.model_validate(config["geometry"]),
         CameraMount.model_validate(config["camera"]["mount"]),
         CameraModel.model_validate(config["camera"]["optics"]),
+        # What older recordings do not say was so.
+        Cable.of(Loads.model_validate(config.get("loads", {}))),
+        SagTables.model_validate(config.get("sag", {})),
     )
 
 

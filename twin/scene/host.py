@@ -11,7 +11,7 @@ from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.scene.cable import Cable
 from twin.scene.state import TwinState
-from twin.statics import SagTables
+from twin.statics import Loads, SagTables
 
 if TYPE_CHECKING:
     import viser
@@ -61,7 +61,7 @@ class TwinHost:
         self._mount = mount
         self._hfov_rad = hfov_rad
         self._aspect = aspect
-        self._cable = cable or Cable()
+        self._cable = cable or Cable.of(Loads())
         self._sag = sag or SagTables()
         self._newest: TwinState | None = None
         self._stop = threading.Event()

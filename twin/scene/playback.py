@@ -34,6 +34,8 @@ def build_playback(
     *,
     hfov_rad: float,
     aspect: float,
+    cable: Cable,
+    sag: SagTables,
     frames: Iterable[PlaybackFrame],
 ) -> bytes:
     """The frames in the 3D library's own format (a .viser file).
@@ -46,6 +48,8 @@ def build_playback(
         mount: Where its camera sat.
         hfov_rad: The camera's horizontal field of view.
         aspect: Width of its picture divided by its height.
+        cable: The charging cable that hung on it.
+        sag: The table of its sag at nine points.
         frames: In the order of time; the last one says how long the playback lasts.
     """
     server = viser_server.open_server()
@@ -57,8 +61,8 @@ def build_playback(
             mount,
             hfov_rad=hfov_rad,
             aspect=aspect,
-            cable=Cable(),
-            sag=SagTables(),
+            cable=cable,
+            sag=sag,
         )
         recording = server.get_scene_serializer()
         shown: TwinState | None = None

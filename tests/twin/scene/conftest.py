@@ -12,7 +12,7 @@ from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.scene import Cable, viser_server
 from twin.scene.scene import TwinScene
-from twin.statics import SagTables
+from twin.statics import Loads, SagTables
 
 
 @pytest.fixture
@@ -40,6 +40,6 @@ def build_scene(server: viser.ViserServer, geometry: RobotGeometry) -> TwinScene
         CameraMount(),
         hfov_rad=math.radians(62.2),
         aspect=4 / 3,
-        cable=Cable(),
+        cable=Cable.of(Loads()),
         sag=SagTables(),
     )

@@ -14,8 +14,10 @@ from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import gamma
+from twin.scene import Cable
 from twin.scene.playback import PlaybackFrame, build_playback
 from twin.scene.state import TwinState
+from twin.statics import SagTables
 
 BEGIN = JointPosition(200.0, 200.0, 60.0)
 
@@ -31,7 +33,13 @@ def decoded(packed: bytes) -> dict[str, Any]:
 
 def playback(frames: list[PlaybackFrame]) -> dict[str, Any]:
     packed = build_playback(
-        RobotGeometry(), CameraMount(), hfov_rad=1.0, aspect=4 / 3, frames=frames
+        RobotGeometry(),
+        CameraMount(),
+        hfov_rad=1.0,
+        aspect=4 / 3,
+        cable=Cable(1800.0, 1.4),
+        sag=SagTables(),
+        frames=frames,
     )
     return decoded(packed)
 

@@ -100,7 +100,7 @@ class ForceNodes:
         self._show_pull(cable_pull_n)
 
     def _show_pull(self, pull_n: NDArray[np.float64] | None) -> None:
-        if pull_n is None:
+        if pull_n is None or np.linalg.norm(pull_n) < LEAST_FORCE_N:
             self.cable.show(0.0)
             self._shown_pull_n = None
             return
