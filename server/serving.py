@@ -17,9 +17,10 @@ import uvicorn
 from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
+from server.config.forces import loads_at_limits
 from server.config.settings import Settings
 from server.timing import ScaledTimeLoop
-from twin.scene import Cable, TwinHost
+from twin.scene import TwinHost
 
 SEND_BUFFER_BYTES = 32 * 1024
 """Small, so that a slow phone is fed the newest state instead of seconds of old ones."""
@@ -75,7 +76,8 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         settings.camera.mount,
         hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
         aspect=optics.width / optics.height,
-        cable=Cable.of(settings.loads),
+        loads=loads_at_limits(settings.loads, settings.insertion),
+        limits=settings.actuators,
         sag=settings.sag,
     )
     async with running(

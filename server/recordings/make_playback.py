@@ -50,7 +50,8 @@ def make_playback(recording: Path, playback: Path, *, rate_hz: float, pause_s: f
         reel.robot.mount,
         hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
         aspect=optics.width / optics.height,
-        cable=reel.robot.cable,
+        loads=reel.robot.loads,
+        limits=reel.robot.limits,
         sag=reel.robot.sag,
         frames=reel.frames,
     )

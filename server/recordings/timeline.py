@@ -11,6 +11,8 @@ import numpy as np
 
 from drivers.camera import CameraModel
 from drivers.station import PilotState
+from server.config.forces import loads_at_limits
+from server.config.insertion import InsertionSettings
 from server.recordings.reader import Entry
 from server.recordings.topics import (
     DivergenceRecord,
@@ -26,10 +28,9 @@ from server.schema.jobs import PlaybackMark
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
-from twin.scene import Cable
 from twin.scene.playback import PlaybackFrame
 from twin.scene.state import PlannedPath, PlugPlace, TwinState
-from twin.statics import Loads, SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 CHARGING = {PilotState.C.value, PilotState.D.value}
 
@@ -48,7 +49,8 @@ class RecordedRobot:
     geometry: RobotGeometry
     mount: CameraMount
     optics: CameraModel
-    cable: Cable
+    loads: Loads
+    limits: ActuatorLimits
     sag: SagTables
 
 
@@ -194,7 +196,11 @@ def _robot(header: HeaderRecord) -> RecordedRobot:
         CameraMount.model_validate(config["camera"]["mount"]),
         CameraModel.model_validate(config["camera"]["optics"]),
         # What older recordings do not say was so.
-        Cable.of(Loads.model_validate(config.get("loads", {}))),
+        loads_at_limits(
+            Loads.model_validate(config.get("loads", {})),
+            InsertionSettings.model_validate(config["insertion"]),
+        ),
+        ActuatorLimits.model_validate(config.get("actuators", {})),
         SagTables.model_validate(config.get("sag", {})),
     )
 

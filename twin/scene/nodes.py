@@ -47,7 +47,13 @@ def add_part(
 
 
 def add_signal(
-    scene: SceneApi, name: str, mesh: Mesh, color: Rgb, *, opacity: float | None = None
+    scene: SceneApi,
+    name: str,
+    mesh: Mesh,
+    color: Rgb,
+    *,
+    opacity: float | None = None,
+    scale: Vector = (1.0, 1.0, 1.0),
 ) -> MeshHandle:
     """A node of one plain colour that may change; it throws no shadow."""
     return scene.add_mesh_simple(
@@ -56,6 +62,7 @@ def add_signal(
         faces=mesh.faces,
         color=color,
         opacity=opacity,
+        scale=scale,
         side="front" if opacity is not None else "double",
         cast_shadow=False,
         receive_shadow=False,

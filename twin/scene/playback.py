@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.scene import viser_server
-from twin.scene.cable import Cable
 from twin.scene.camera_view import set_first_view
 from twin.scene.scene import TwinScene
 from twin.scene.state import TwinState
-from twin.statics import SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +33,8 @@ def build_playback(
     *,
     hfov_rad: float,
     aspect: float,
-    cable: Cable,
+    loads: Loads,
+    limits: ActuatorLimits,
     sag: SagTables,
     frames: Iterable[PlaybackFrame],
 ) -> bytes:
@@ -48,7 +48,8 @@ def build_playback(
         mount: Where its camera sat.
         hfov_rad: The camera's horizontal field of view.
         aspect: Width of its picture divided by its height.
-        cable: The charging cable that hung on it.
+        loads: What it carried, and the largest forces at its plug.
+        limits: What its actuators could hold.
         sag: The table of its sag at nine points.
         frames: In the order of time; the last one says how long the playback lasts.
     """
@@ -61,7 +62,8 @@ def build_playback(
             mount,
             hfov_rad=hfov_rad,
             aspect=aspect,
-            cable=cable,
+            loads=loads,
+            limits=limits,
             sag=sag,
         )
         recording = server.get_scene_serializer()

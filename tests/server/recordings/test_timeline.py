@@ -253,15 +253,15 @@ def test_cable_and_sag_are_those_of_the_recorded_robot() -> None:
     tape.entries[0] = with_config(header)
     tape.robot()
     robot = tape.play().robot
-    assert (robot.cable.length_mm, robot.cable.mass_kg) == (2000.0, 1.9)
+    assert (robot.loads.cable_length_mm, robot.loads.cable_mass_kg) == (2000.0, 1.9)
     assert robot.sag.alpha_x_mm == (500.0, 600.0, 700.0)
 
 
 def test_a_recording_that_is_older_than_these_settings_is_played_with_the_published_ones() -> None:
     header = json.loads(header_record(Settings(), JOB, "Simulator", NOW).config_json)
-    del header["loads"], header["sag"]
+    del header["loads"], header["actuators"], header["sag"]
     tape = Tape()
     tape.entries[0] = with_config(header)
     tape.robot()
     robot = tape.play().robot
-    assert (robot.cable.length_mm, robot.sag) == (1500.0, SagTables())
+    assert (robot.loads.cable_length_mm, robot.sag) == (1500.0, SagTables())

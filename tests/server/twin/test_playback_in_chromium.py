@@ -20,9 +20,9 @@ from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import gamma
-from twin.scene import Cable, TwinHost, TwinState
+from twin.scene import TwinHost, TwinState
 from twin.scene.playback import PlaybackFrame, build_playback
-from twin.statics import Loads, SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 pytestmark = pytest.mark.browser
 
@@ -97,7 +97,8 @@ async def test_a_playback_plays_jumps_pauses_and_shows_what_has_parted(
             CameraMount(),
             hfov_rad=1.0,
             aspect=4 / 3,
-            cable=Cable.of(Loads()),
+            loads=Loads(),
+            limits=ActuatorLimits(),
             sag=SagTables(),
             frames=states(),
         )

@@ -14,10 +14,9 @@ from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import gamma
-from twin.scene import Cable
 from twin.scene.playback import PlaybackFrame, build_playback
 from twin.scene.state import TwinState
-from twin.statics import SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 BEGIN = JointPosition(200.0, 200.0, 60.0)
 
@@ -37,7 +36,8 @@ def playback(frames: list[PlaybackFrame]) -> dict[str, Any]:
         CameraMount(),
         hfov_rad=1.0,
         aspect=4 / 3,
-        cable=Cable(1800.0, 1.4),
+        loads=Loads(),
+        limits=ActuatorLimits(),
         sag=SagTables(),
         frames=frames,
     )

@@ -71,7 +71,7 @@ def add_condition_map(scene: SceneApi, geometry: RobotGeometry, reach: ArcPolygo
         f"{name}/legend",
         _scale(),
         title="condition",
-        ends=("1", f"{WORST_CONDITION:g} or more"),
+        ends=("1", f"≥ {WORST_CONDITION:g}"),
         foot_mm=(extent.x_max_mm + _LEGEND_GAP, extent.y_min_mm + 0.2 * height, 0.0),
         height_mm=0.6 * height,
     )

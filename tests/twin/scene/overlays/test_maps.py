@@ -76,4 +76,4 @@ def test_the_legend_says_where_the_colours_end(scene: TwinScene, server: viser.V
     assert scene
     label = server.scene._handle_from_node_name[f"{CONDITION.nodes[0]}/legend/high"]
     assert isinstance(label, viser.LabelHandle)
-    assert label.text == "condition 6 or more"
+    assert label.text == "condition ≥ 6"
