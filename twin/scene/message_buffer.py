@@ -94,13 +94,22 @@ class ReplayBuffer(AsyncMessageBuffer):
                     await self.message_event.wait()
                     self.message_event.clear()
                     continue
-                last = min(newest, sent + self.max_window_size)
-                window = self._still_kept(range(sent + 1, last + 1), client_id)
+                ahead = self._numbers(sent, newest)
+                last = ahead[-1] if len(ahead) == self.max_window_size else newest
+                window = self._still_kept(ahead, client_id)
                 sent = self.generator_cursors[client_id] = last
                 if window:
                     yield window
         finally:
             self.generator_cursors.pop(client_id, None)
+
+    def _numbers(self, sent: int, newest: int) -> Sequence[int]:
+        """The next numbers to send; of a long row, which is mostly replaced, what is kept of it."""
+        if newest - sent <= self.max_window_size:
+            return range(sent + 1, newest + 1)
+        with self.buffer_lock:
+            kept = [number for number in self.message_from_id if sent < number <= newest]
+        return kept[: self.max_window_size]
 
     def _still_kept(self, numbers: Sequence[int], client_id: int) -> list[Message]:
         """The messages of these numbers that nothing has replaced and this browser may see."""

@@ -132,11 +132,14 @@ async def test_steps_that_replaced_each_other_before_they_were_sent_hold_nothing
     async with TwinClient.connected(address_of(server)) as client:
         await client.until_replayed()
         with server.atomic():
-            # More than fit into one frame, and all but the last one are gone.
+            # More than fit into one frame, and all but the last one are gone; and a week of such.
             for step in range(1, 2 * buffer_of(server).max_window_size):
                 node.position = (float(step), 0.0, 0.0)
+            with buffer_of(server).buffer_lock:
+                buffer_of(server).message_counter += 7 * 24 * 3600 * 30 * 20
+            node.position = (float(step + 1), 0.0, 0.0)
         async with asyncio.timeout(5):
-            await client.until_position("/node", float(step))
+            await client.until_position("/node", float(step + 1))
 
 
 async def test_browsers_that_see_the_same_share_their_frames(

@@ -40,7 +40,7 @@ _TO_THE_RIGHT: Quaternion = turn((0.0, 1.0, 0.0), np.pi / 2)
 
 def _unit_arrow() -> Mesh:
     """A metre long and a metre wide, along z: its node's scale is its size."""
-    return lathe([(0, 0), (600, 0), (600, 700), (1400, 700), (0, 1000)], count=10)
+    return lathe([(0, 0), (600, 0), (600, 700), (1400, 700), (0, 1000)], count=6)
 
 
 def utilisation_color(share: float) -> Rgb:
