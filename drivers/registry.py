@@ -42,6 +42,7 @@ from drivers.station.settings import StationGroups
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.motion import MotionLimits
+from twin.statics import DEFAULT_TABLES, SagTables
 
 D = TypeVar("D")
 
@@ -65,6 +66,7 @@ class DeviceRequest:
         optics: Calibrated model of the camera.
         simulation: Numbers of the simulated garage.
         seed: Decides everything random in it.
+        sag: How far the robot sags under its own weight.
         board: Numbers of the real motion board.
         cameras: How real cameras are reached.
         manager: Name of the energy manager before the station, or "none".
@@ -83,6 +85,7 @@ class DeviceRequest:
     optics: CameraModel
     simulation: SimulationParameters
     seed: int
+    sag: SagTables = DEFAULT_TABLES
     board: BoardSettings = field(default_factory=BoardSettings)
     cameras: CameraLinks = field(default_factory=CameraLinks)
     manager: str = NO_MANAGER
@@ -109,6 +112,7 @@ class DeviceRequest:
             self.optics,
             parameters=self.simulation,
             seed=self.seed,
+            sag=self.sag,
         )
 
     @cached_property
@@ -121,6 +125,7 @@ class DeviceRequest:
             self.optics,
             parameters=self.simulation,
             seed=self.seed,
+            sag=self.sag,
         )
 
     @property

@@ -16,8 +16,10 @@ from drivers.simulator.following import RobotFollower
 from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationError
 from server.config.errors import ConfigurationError
+from server.config.forces import loads_at_limits
 from server.config.settings import Settings
 from server.control.jog import DEAD_MAN_S, Jog
+from server.control.path_check import Strength
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.divergence.report import twin_report
@@ -98,7 +100,14 @@ async def running(
             await _introduce(devices.world, vehicles)
 
         supervisor = Supervisor(
-            devices.robot, settings.geometry, settings.motion, StoredPlug(database), calendar
+            devices.robot,
+            settings.geometry,
+            settings.motion,
+            StoredPlug(database),
+            calendar,
+            strength=Strength(
+                loads_at_limits(settings.loads, settings.insertion), settings.actuators
+            ),
         )
         if devices.followed is not None:
             _let_follow(devices.followed.follower, supervisor)
@@ -189,6 +198,7 @@ def _devices(settings: Settings, folder: Path | None) -> Devices:
         limits=settings.motion,
         mount=settings.camera.mount,
         optics=settings.camera.optics,
+        sag=settings.sag,
         simulation=settings.simulation.parameters,
         seed=settings.simulation.seed,
     )

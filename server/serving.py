@@ -17,6 +17,7 @@ import uvicorn
 from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
+from server.config.forces import loads_at_limits
 from server.config.settings import Settings
 from server.timing import ScaledTimeLoop
 from twin.scene import TwinHost
@@ -75,6 +76,9 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         settings.camera.mount,
         hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
         aspect=optics.width / optics.height,
+        loads=loads_at_limits(settings.loads, settings.insertion),
+        limits=settings.actuators,
+        sag=settings.sag,
     )
     async with running(
         settings, folder=settings.storage.data_dir, twin=twin, wait_for_robot=False

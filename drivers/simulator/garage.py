@@ -16,6 +16,7 @@ from drivers.simulator.world import SimulatedWorld
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.motion.limits import MotionLimits
+from twin.statics import DEFAULT_TABLES, SagTables
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +62,7 @@ def build_garage(
     *,
     seed: int,
     imaging: ImagingParameters | None = None,
+    sag: SagTables = DEFAULT_TABLES,
 ) -> SimulatedGarage:
     """Build a garage whose robot, camera and car differ from their drawings by chance.
 
@@ -72,8 +74,9 @@ def build_garage(
         parameters: All numbers of the simulation.
         seed: Decides everything random; the same seed gives the same garage and the same run.
         imaging: Light, exposure and noise of the camera; None takes those of the parameters.
+        sag: How far the robot sags under its own weight.
     """
-    world = SimulatedWorld(geometry, limits, mount, parameters, seed)
+    world = SimulatedWorld(geometry, limits, mount, parameters, seed, sag=sag)
     camera = _camera(world, optics, imaging, seed)
     return SimulatedGarage(world, SimulatedRobot(world), camera, SimulatedStation(world))
 
@@ -87,13 +90,14 @@ def build_followed_garage(
     *,
     seed: int,
     imaging: ImagingParameters | None = None,
+    sag: SagTables = DEFAULT_TABLES,
 ) -> FollowedGarage:
     """Build a garage around a robot that is not simulated.
 
     It takes what ``build_garage`` takes, and with the same seed it is the same garage: the same
     car, the same camera, the same errors of the build.
     """
-    world = SimulatedWorld(geometry, limits, mount, without_motors(parameters), seed)
+    world = SimulatedWorld(geometry, limits, mount, without_motors(parameters), seed, sag=sag)
     camera = _camera(world, optics, imaging, seed)
     return FollowedGarage(world, camera, SimulatedStation(world), RobotFollower(world))
 

@@ -22,11 +22,12 @@ class RobotSag:
 
     Args:
         geometry: The robot as built.
-        scale: Of the published deflections; 0 for a rigid robot.
+        scale: Of the deflections in the tables; 0 for a rigid robot.
+        tables: How far a robot of these lengths sags.
     """
 
-    def __init__(self, geometry: RobotGeometry, scale: float) -> None:
-        tables = SagTables()
+    def __init__(self, geometry: RobotGeometry, scale: float, tables: SagTables) -> None:
+        self._tables = tables
         self._geometry = geometry
         self._scale = scale
         mean_mm = fmean(tables.beta_mm)
@@ -42,7 +43,7 @@ class RobotSag:
             LegsCannotCloseError: no pose has these joints.
         """
         joints = JointPosition(rho1_mm, rho2_mm, self._geometry.rho3.min_mm)
-        return self._scale * sag(self._geometry, joints).alpha_mm
+        return self._scale * sag(self._geometry, joints, self._tables).alpha_mm
 
     def of_tip_mm(self, rho3_mm: float) -> float:
         """How far the tip hangs below its place on the platform [mm]."""

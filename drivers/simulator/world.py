@@ -30,6 +30,7 @@ from twin.joints import JointPosition
 from twin.kinematics import alpha
 from twin.motion.limits import MotionLimits
 from twin.motion.segments import Segment
+from twin.statics import DEFAULT_TABLES, SagTables
 
 HISTORY_S = 2.0
 """How far back the camera may look."""
@@ -51,6 +52,7 @@ class SimulatedWorld:
         mount: The camera on the platform, as drawn.
         parameters: All numbers.
         seed: Decides every random quantity.
+        sag: How far it sags under its own weight.
     """
 
     def __init__(
@@ -60,6 +62,8 @@ class SimulatedWorld:
         mount: CameraMount,
         parameters: SimulationParameters,
         seed: int,
+        *,
+        sag: SagTables = DEFAULT_TABLES,
     ) -> None:
         self.geometry = geometry
         self.limits = limits
@@ -71,8 +75,8 @@ class SimulatedWorld:
             self.streams.build.normal(0.0, parameters.drives.force_scale_std)
         )
         mechanism = built_mechanism(true_geometry, parameters.build, self.streams.build)
-        sag = RobotSag(true_geometry, parameters.build.sag_scale)
-        self._plant = Plant(true_geometry, mechanism, parameters, sag)
+        robot_sag = RobotSag(true_geometry, parameters.build.sag_scale, sag)
+        self._plant = Plant(true_geometry, mechanism, parameters, robot_sag)
         self._force_limit_n = parameters.board.default_force_limit_n
         self._slide_jammed = False
         self._listeners: list[ConnectionListener] = []

@@ -48,7 +48,7 @@ def _origin(key: Key, entries: Sequence[Entry]) -> str:
 def _suggestion(key: Key) -> str:
     keys = list(known_keys())
     siblings = {known[-1]: known for known in keys if known[:-1] == key[:-1]}
-    anywhere = {known[-1]: known for known in keys}
+    anywhere = {known[-1]: known for known in reversed(keys)}  # of two the first
     for candidates in (siblings, anywhere):
         near = difflib.get_close_matches(key[-1], candidates, n=1)
         if near:

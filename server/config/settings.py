@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
 from server.config.camera import CameraSettings
+from server.config.forces import force_conflict
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
@@ -22,7 +23,7 @@ from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import PlatformPosition, UnreachableError, alpha, check_joint_limits
 from twin.motion.limits import MotionLimits
-from twin.statics import ActuatorLimits, Loads
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 
 class Settings(BaseSettings):
@@ -47,6 +48,7 @@ class Settings(BaseSettings):
     divergence: DivergenceNumbers = DivergenceNumbers()
     loads: Loads = Loads()
     actuators: ActuatorLimits = ActuatorLimits()
+    sag: SagTables = SagTables()
     camera: CameraSettings = Field(default_factory=CameraSettings)
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
@@ -94,6 +96,21 @@ class Settings(BaseSettings):
                 f" = {needed:g} mm, but geometry.rho3 travels only {slide.stroke_mm:g} mm"
             )
             raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _forces_agree(self) -> Self:
+        motor_n = self.simulation.parameters.drives.max_force_n
+        conflict = force_conflict(
+            geometry=self.geometry,
+            loads=self.loads,
+            insertion=self.insertion,
+            strongest_n=self.actuators.rho3_n,
+            slide=self.robot.board.slide,
+            simulated_motor_n=motor_n if self.simulated else None,
+        )
+        if conflict is not None:
+            raise ValueError(conflict)
         return self
 
     @model_validator(mode="after")

@@ -12,6 +12,7 @@ ControlError
 ├── MotionRefusedError           the board refused the motion
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
 ├── MotionOutOfReachError        joint limit, workspace or singularity
+├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
 └── ForceLimitError              the insertion force went over its limit
 """
 
@@ -118,6 +119,17 @@ class MotionOutOfReachError(ControlError):
     code = "out_of_reach"
     title = "The robot cannot reach that"
     remedy = "Choose a target nearer to the middle of the workspace."
+
+
+class ActuatorOverloadError(ControlError):
+    """The motion would ask an actuator for more force than it can hold."""
+
+    code = "actuator_overload"
+    title = "The robot is not strong enough for that"
+    remedy = (
+        "Choose a target further away from the rail, where the legs stand steeper, or let the "
+        "cable hang from a hook. If the numbers are wrong, correct [loads] and [actuators]."
+    )
 
 
 class ForceLimitError(ControlError):

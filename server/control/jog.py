@@ -10,6 +10,7 @@ from typing import Literal
 from server.control.errors import ControlError, MotionOutOfReachError, RobotNotReadyError
 from server.control.lease import Lease
 from server.control.motion import Motion
+from server.control.path_check import can_hold
 from server.control.supervisor import Supervisor
 from server.errors import PlugPilotError
 from twin.errors import TwinError
@@ -142,9 +143,7 @@ class Jog:
             RobotNotReadyError: nobody knows where the joints are.
         """
         if not self._supervisor.telemetry.require().homed:
-            raise RobotNotReadyError(
-                "The robot does not know its position."
-            )
+            raise RobotNotReadyError("The robot does not know its position.")
         return {
             axis: (self._way_mm(axis, -1), self._way_mm(axis, 1))
             for axis in ("x", "y", "insertion", "rho1", "rho2", "rho3")
@@ -158,28 +157,25 @@ class Jog:
 
     def _way_mm(self, axis: Axis, direction: int) -> float:
         """How far the axis can go in a direction, less a margin; 0 at the end [mm]."""
-        geometry = self._supervisor.geometry
         start = self._supervisor.telemetry.require().commanded.position
         way_mm, stride_mm = 0.0, FIRST_STRIDE_MM
         while stride_mm >= LAST_STRIDE_MM:
-            if _can_stand(geometry, start, axis, direction * (way_mm + stride_mm)):
+            if self._can_stand(start, axis, direction * (way_mm + stride_mm)):
                 way_mm += stride_mm
             else:
                 stride_mm /= 2
         return max(way_mm - LIMIT_MARGIN_MM, 0.0)
 
-
-def _can_stand(
-    geometry: RobotGeometry, start: JointPosition, axis: Axis, distance_mm: float
-) -> bool:
-    """Whether the robot can be that much further along an axis."""
-    try:
-        joints = _further(geometry, start, axis, distance_mm)
-        gamma.check_joint_limits(geometry, joints)
-        singularity.check(geometry, joints, SingularityLimits())
-    except KinematicsError:
-        return False
-    return True
+    def _can_stand(self, start: JointPosition, axis: Axis, distance_mm: float) -> bool:
+        """Whether the robot can be that much further along an axis, and hold itself there."""
+        geometry = self._supervisor.geometry
+        try:
+            joints = _further(geometry, start, axis, distance_mm)
+            gamma.check_joint_limits(geometry, joints)
+            singularity.check(geometry, joints, SingularityLimits())
+            return can_hold(geometry, start, joints, self._supervisor.strength)
+        except KinematicsError:
+            return False
 
 
 def _further(

@@ -33,7 +33,7 @@ from server.control.link import RobotLink
 from server.control.listeners import Listeners
 from server.control.model import Holder, HolderKind, RobotMode
 from server.control.motion import Motion, Watch
-from server.control.path_check import check_path
+from server.control.path_check import DEFAULT_STRENGTH, Strength, check_path
 from server.control.plug_guard import HELD, PlugGuard, PlugStore
 from server.control.telemetry import Telemetry
 from server.timing import Calendar
@@ -51,6 +51,7 @@ class Supervisor:
         limits: What motions are planned with.
         plug_store: Where the plug's state survives.
         calendar: Dates for what people see.
+        strength: What the robot carries, and what its actuators can.
     """
 
     def __init__(
@@ -60,9 +61,12 @@ class Supervisor:
         limits: MotionLimits,
         plug_store: PlugStore,
         calendar: Calendar,
+        *,
+        strength: Strength = DEFAULT_STRENGTH,
     ) -> None:
         self.geometry = geometry
         self.limits = limits
+        self.strength = strength
         self.telemetry = Telemetry()
         self.plug = PlugGuard(plug_store, self._changed)
         self._driver = driver
@@ -280,7 +284,7 @@ class Supervisor:
         problem = modes.why_not_moving(self.mode, self.telemetry.latest)
         if problem is not None:
             raise problem
-        check_path(self.geometry, self.plug, plan)
+        check_path(self.geometry, self.plug, plan, self.strength)
         if self._link.identity is None:
             raise RobotOfflineError("The motion board has not identified itself yet.")
         self._motion = Motion(self._board, self._link.identity, plan, watch, changeable=changeable)
@@ -317,12 +321,10 @@ class Supervisor:
 
         def replan(start: JointState) -> MotionPlan:
             plan = plan_joint_move(self.limits, start, target)
-            check_path(self.geometry, self.plug, plan)
+            check_path(self.geometry, self.plug, plan, self.strength)
             return plan
 
         motion.retarget(replan)
-
-    # Inside
 
     def _refuse_when_stopped(self) -> None:
         problem = modes.why_not_preparing(self.mode, self.telemetry.latest)

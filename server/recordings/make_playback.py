@@ -50,6 +50,9 @@ def make_playback(recording: Path, playback: Path, *, rate_hz: float, pause_s: f
         reel.robot.mount,
         hfov_rad=2 * math.atan(optics.width / (2 * optics.fx)),
         aspect=optics.width / optics.height,
+        loads=reel.robot.loads,
+        limits=reel.robot.limits,
+        sag=reel.robot.sag,
         frames=reel.frames,
     )
     playback.write_bytes(packed)

@@ -30,6 +30,7 @@ from server.storage.errors import StorageError
 from server.timing import Calendar
 from twin.divergence import Change, Entry
 from twin.divergence.insertion_force import InsertionForce
+from twin.motion import MotionPlan
 
 _log = logging.getLogger(__name__)
 
@@ -78,6 +79,7 @@ class Recorder:
         self._task: asyncio.Task[None] | None = None
         self._job_id = ""
         self._seen: RobotState | None = None
+        self._plan: MotionPlan | None = None
         self._written_s = float("-inf")
         supervisor.listen(self._robot_changed)
         runner.listen(self._job_changed)
@@ -126,7 +128,7 @@ class Recorder:
         session.put(topics.HEADER, self._now_s(), lambda: header)
         limits = self._settings.recordings
         self._pictures = PictureChoice(limits.pictures, limits.picture_interval_s)
-        self._written_s = float("-inf")
+        self._plan, self._written_s = None, float("-inf")
         before, self._session = self._task, session
         self._task = asyncio.create_task(self._record(session, job.id, before), name="recorder")
 
@@ -163,6 +165,7 @@ class Recorder:
         state, session = self._supervisor.telemetry.latest, self._session
         if session is None or state is None or state is self._seen:
             return
+        self._write_plan(session, state.sampled_at_s)
         resting = self._seen is not None and state.measured.position == self._seen.measured.position
         resting = resting and state.board is self._seen.board  # type: ignore[union-attr]
         self._seen = state
@@ -186,6 +189,12 @@ class Recorder:
                 state.sampled_at_s,
                 lambda: records.insertion_record(state, entry, self._force),
             )
+
+    def _write_plan(self, session: RecordingSession, at_s: float) -> None:
+        plan, geometry = self._supervisor.plan, self._supervisor.geometry
+        if plan is not self._plan:
+            self._plan = plan
+            session.put(topics.PLAN, at_s, lambda: records.plan_record(plan, geometry))
 
     def _entry_written(self, job: Job, event: JobEvent) -> None:
         if self._session is not None and job.id == self._job_id:

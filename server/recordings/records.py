@@ -20,6 +20,7 @@ from server.recordings.topics import (
     InsertionRecord,
     JointsRecord,
     PictureRecord,
+    PlanRecord,
     PointRecord,
     RobotRecord,
     SocketRecord,
@@ -32,11 +33,23 @@ from twin.divergence.insertion_force import InsertionForce
 from twin.divergence.samples import Entry
 from twin.geometry import RobotGeometry
 from twin.kinematics import KinematicsError, gamma
+from twin.motion import MotionPlan
+from twin.scene.planned_path import planned_path
 
 JPEG_QUALITY = 80
 FRAME_ID = "camera"
 
-_CONFIG = {"geometry", "motion", "camera", "insertion", "park", "divergence"}
+_CONFIG = {
+    "geometry",
+    "loads",
+    "actuators",
+    "sag",
+    "motion",
+    "camera",
+    "insertion",
+    "park",
+    "divergence",
+}
 """What explains a recording. The rest of the configuration may hold secrets."""
 
 
@@ -69,6 +82,20 @@ def robot_record(state: RobotState, mode: str, plug: str, geometry: RobotGeometr
         homed=state.homed,
         enabled=state.enabled,
         fault=state.fault.code.value if state.fault else None,
+    )
+
+
+def plan_record(plan: MotionPlan | None, geometry: RobotGeometry) -> PlanRecord:
+    """The way of a plan; an empty one when there is none."""
+    path = None if plan is None else planned_path(geometry, plan)
+    if path is None:
+        return PlanRecord(times_s=[], tips=[])
+    return PlanRecord(
+        times_s=[round(time_s, 4) for time_s in path.times_s.tolist()],
+        tips=[
+            PointRecord(x_mm=round(x_mm, 2), y_mm=round(y_mm, 2), z_mm=round(z_mm, 2))
+            for x_mm, y_mm, z_mm in path.tips_mm.tolist()
+        ],
     )
 
 

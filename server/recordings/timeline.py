@@ -11,12 +11,15 @@ import numpy as np
 
 from drivers.camera import CameraModel
 from drivers.station import PilotState
+from server.config.forces import loads_at_limits
+from server.config.insertion import InsertionSettings
 from server.recordings.reader import Entry
 from server.recordings.topics import (
     DivergenceRecord,
     EventRecord,
     HeaderRecord,
     JointsRecord,
+    PlanRecord,
     RobotRecord,
     SocketRecord,
     StationRecord,
@@ -26,7 +29,8 @@ from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.scene.playback import PlaybackFrame
-from twin.scene.state import PlugPlace, TwinState
+from twin.scene.state import PlannedPath, PlugPlace, TwinState
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 CHARGING = {PilotState.C.value, PilotState.D.value}
 
@@ -45,6 +49,9 @@ class RecordedRobot:
     geometry: RobotGeometry
     mount: CameraMount
     optics: CameraModel
+    loads: Loads
+    limits: ActuatorLimits
+    sag: SagTables
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +91,8 @@ def timeline(entries: Iterable[Entry], *, rate_hz: float, pause_s: float) -> Tim
                 robot = _robot(record)
             case RobotRecord():
                 reel.move(record, at_s)
+            case PlanRecord():
+                reel.plan(record)
             case SocketRecord():
                 reel.see(record)
             case StationRecord():
@@ -126,6 +135,13 @@ class _Reel:
         )
         if not self.frames:
             self.frames.append(PlaybackFrame(0.0, self._state))
+
+    def plan(self, record: PlanRecord) -> None:
+        path = None
+        if record.times_s:
+            tips_mm = np.array([(tip.x_mm, tip.y_mm, tip.z_mm) for tip in record.tips])
+            path = PlannedPath(np.array(record.times_s), tips_mm)
+        self._state = replace(self._state, path=path)
 
     def see(self, record: SocketRecord) -> None:
         self._state = replace(
@@ -179,6 +195,13 @@ def _robot(header: HeaderRecord) -> RecordedRobot:
         RobotGeometry.model_validate(config["geometry"]),
         CameraMount.model_validate(config["camera"]["mount"]),
         CameraModel.model_validate(config["camera"]["optics"]),
+        # What older recordings do not say was so.
+        loads_at_limits(
+            Loads.model_validate(config.get("loads", {})),
+            InsertionSettings.model_validate(config["insertion"]),
+        ),
+        ActuatorLimits.model_validate(config.get("actuators", {})),
+        SagTables.model_validate(config.get("sag", {})),
     )
 
 

@@ -55,6 +55,15 @@ class RobotRecord(Record):
     fault: str | None
 
 
+class PlanRecord(Record):
+    """The way of the plug's tip for the plan that is followed from now on."""
+
+    times_s: list[float] = Field(
+        description="After the plan's start, ascending; empty: no plan is followed"
+    )
+    tips: list[PointRecord] = Field(description="Planned tip at these times")
+
+
 class InsertionRecord(Record):
     """Force over depth beside that of a good insertion; only while the slide moves."""
 
@@ -138,7 +147,8 @@ class HeaderRecord(Record):
     simulated: bool
     began_at: str = Field(description="Date and time, ISO 8601")
     config_json: str = Field(
-        description="Geometry, motion limits, camera, insertion and expectations, as JSON"
+        description="Geometry, loads, sag, motion and force limits, camera, insertion and "
+        "expectations, as JSON"
     )
 
 
@@ -174,6 +184,7 @@ class Topic:
 HEADER = Topic("/recording/header", "plugpilot.Header", HeaderRecord)
 END = Topic("/recording/end", "plugpilot.End", EndRecord)
 ROBOT = Topic("/robot/state", "plugpilot.RobotState", RobotRecord)
+PLAN = Topic("/robot/plan", "plugpilot.Plan", PlanRecord)
 INSERTION = Topic("/robot/insertion", "plugpilot.Insertion", InsertionRecord)
 EVENT = Topic("/job/events", "plugpilot.JobEvent", EventRecord)
 SOCKET = Topic("/socket/pose", "plugpilot.SocketPose", SocketRecord)
@@ -181,7 +192,7 @@ STATION = Topic("/station/state", "plugpilot.Station", StationRecord)
 DIVERGENCE = Topic("/twin/divergence", "plugpilot.Divergence", DivergenceRecord)
 PICTURE = Topic("/camera/key", "foxglove.CompressedImage", PictureRecord)
 
-TOPICS = (HEADER, END, ROBOT, INSERTION, EVENT, SOCKET, STATION, DIVERGENCE, PICTURE)
+TOPICS = (HEADER, END, ROBOT, PLAN, INSERTION, EVENT, SOCKET, STATION, DIVERGENCE, PICTURE)
 
 
 def _inlined(part: Any, definitions: Mapping[str, Any]) -> Any:  # noqa: ANN401 - any JSON

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.statics.loads import GRAVITY_M_S2
+from twin.statics.loads import GRAVITY_M_S2, Loads
 
 Points = NDArray[np.float64]
 
@@ -20,20 +20,25 @@ _LEAST_SPAN_MM = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Cable:
-    """The charging cable; the defaults are the published requirement.
+    """The charging cable.
 
     Attributes:
         length_mm: Length between the station and the plug.
         mass_kg: Mass of this length.
     """
 
-    length_mm: float = 1500.0
-    mass_kg: float = 1.4
+    length_mm: float
+    mass_kg: float
 
     def __post_init__(self) -> None:
-        if not (self.length_mm > 0 and self.mass_kg > 0) or math.isinf(self.length_mm):
-            msg = "a cable needs a length_mm and a mass_kg greater than zero"
+        if not (0 < self.length_mm < math.inf and 0 <= self.mass_kg < math.inf):
+            msg = "a cable needs a length_mm greater than zero and a mass_kg that is not negative"
             raise ValueError(msg)
+
+    @classmethod
+    def of(cls, loads: Loads) -> Self:
+        """The cable that hangs on the robot."""
+        return cls(loads.cable_length_mm, loads.cable_mass_kg)
 
     @property
     def weight_n_mm(self) -> float:

@@ -24,6 +24,7 @@ class CarNodes:
     def __init__(self, scene: SceneApi, geometry: RobotGeometry) -> None:
         self._nominal = poses.nominal_socket(geometry)
         self._shown: tuple[Pose | None, Pose | None] | None = None
+        self._ring_color: Rgb = IDLE
         theta = geometry.theta_rad
         self.car = add_pivot(scene, "/car")
         self.body = add_part(scene, "/car/body", car.body(theta))
@@ -42,7 +43,9 @@ class CarNodes:
 
     def show(self, state: TwinState) -> None:
         """Moves the car and its label to where they were measured; lights the inlet's ring."""
-        self.ring.color = _ring_color(state)
+        color = _ring_color(state)
+        if color != self._ring_color:
+            self.ring.color = self._ring_color = color
         measured = (state.T_base_socket, state.T_base_label)
         if self._shown is not None and all(
             new is old for new, old in zip(measured, self._shown, strict=True)

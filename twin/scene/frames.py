@@ -21,10 +21,10 @@ METRES_PER_MM = 1e-3
 UPRIGHT: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 
-def metres(point_mm: ArrayLike) -> Vector:
+def metres(point_mm: Vector | NDArray[np.float64]) -> Vector:
     """A point or vector in the scene's unit."""
-    x, y, z = np.asarray(point_mm, dtype=float)
-    return (x * METRES_PER_MM, y * METRES_PER_MM, z * METRES_PER_MM)
+    x, y, z = point_mm
+    return (float(x) * METRES_PER_MM, float(y) * METRES_PER_MM, float(z) * METRES_PER_MM)
 
 
 def turn(axis: Vector, angle_rad: float) -> Quaternion:

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
-from twin.scene.cable import Cable
 from twin.scene.state import TwinState
-from twin.statics import SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 if TYPE_CHECKING:
     import viser
@@ -44,7 +43,8 @@ class TwinHost:
         hfov_rad: float,
         aspect: float,
         *,
-        cable: Cable | None = None,
+        loads: Loads | None = None,
+        limits: ActuatorLimits | None = None,
         sag: SagTables | None = None,
     ) -> None:
         """Args as for the scene; nothing is loaded or opened yet.
@@ -54,14 +54,16 @@ class TwinHost:
             mount: Where its camera sits.
             hfov_rad: The camera's horizontal field of view.
             aspect: Width of its picture divided by its height.
-            cable: The charging cable; by default the published one.
-            sag: The table of the sag at nine points; by default the published one.
+            loads: What the robot carries, its cable too, and the largest forces at the plug.
+            limits: What its actuators can hold.
+            sag: The table of the sag at nine points; for all three there are defaults.
         """
         self._geometry = geometry
         self._mount = mount
         self._hfov_rad = hfov_rad
         self._aspect = aspect
-        self._cable = cable or Cable()
+        self._loads = loads or Loads()
+        self._limits = limits or ActuatorLimits()
         self._sag = sag or SagTables()
         self._newest: TwinState | None = None
         self._stop = threading.Event()
@@ -138,7 +140,8 @@ class TwinHost:
                 self._mount,
                 hfov_rad=self._hfov_rad,
                 aspect=self._aspect,
-                cable=self._cable,
+                loads=self._loads,
+                limits=self._limits,
                 sag=self._sag,
             )
             self._port = server.get_port()

@@ -47,7 +47,13 @@ def add_part(
 
 
 def add_signal(
-    scene: SceneApi, name: str, mesh: Mesh, color: Rgb, *, opacity: float | None = None
+    scene: SceneApi,
+    name: str,
+    mesh: Mesh,
+    color: Rgb,
+    *,
+    opacity: float | None = None,
+    scale: Vector = (1.0, 1.0, 1.0),
 ) -> MeshHandle:
     """A node of one plain colour that may change; it throws no shadow."""
     return scene.add_mesh_simple(
@@ -56,6 +62,7 @@ def add_signal(
         faces=mesh.faces,
         color=color,
         opacity=opacity,
+        scale=scale,
         side="front" if opacity is not None else "double",
         cast_shadow=False,
         receive_shadow=False,
@@ -97,7 +104,7 @@ def set_visible(node: SceneNodeHandle, *, visible: bool) -> None:
 def place(node: SceneNodeHandle, position_mm: Vector, wxyz: Quaternion | None = None) -> None:
     """Moves a node in its parent's frame; sends nothing if it is there already.
 
-    Comparing costs as much as sending: leave the turn out for what never turns.
+    Comparing costs as much as sending: leave out what never changes.
     """
     node.position = metres(position_mm)
     if wxyz is not None:
@@ -108,3 +115,8 @@ def place_transform(node: SceneNodeHandle, transform: Pose) -> None:
     """Moves a node to a homogeneous transform."""
     node.position = metres(transform[:3, 3])
     node.wxyz = quaternion(transform[:3, :3])
+
+
+def turn_to(node: SceneNodeHandle, wxyz: Quaternion) -> None:
+    """Turns a node about its own pivot; sends nothing if it is turned so already."""
+    node.wxyz = wxyz

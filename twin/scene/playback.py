@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
 from twin.scene import viser_server
-from twin.scene.cable import Cable
 from twin.scene.camera_view import set_first_view
 from twin.scene.scene import TwinScene
 from twin.scene.state import TwinState
-from twin.statics import SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +33,9 @@ def build_playback(
     *,
     hfov_rad: float,
     aspect: float,
+    loads: Loads,
+    limits: ActuatorLimits,
+    sag: SagTables,
     frames: Iterable[PlaybackFrame],
 ) -> bytes:
     """The frames in the 3D library's own format (a .viser file).
@@ -46,6 +48,9 @@ def build_playback(
         mount: Where its camera sat.
         hfov_rad: The camera's horizontal field of view.
         aspect: Width of its picture divided by its height.
+        loads: What it carried, and the largest forces at its plug.
+        limits: What its actuators could hold.
+        sag: The table of its sag at nine points.
         frames: In the order of time; the last one says how long the playback lasts.
     """
     server = viser_server.open_server()
@@ -57,8 +62,9 @@ def build_playback(
             mount,
             hfov_rad=hfov_rad,
             aspect=aspect,
-            cable=Cable(),
-            sag=SagTables(),
+            loads=loads,
+            limits=limits,
+            sag=sag,
         )
         recording = server.get_scene_serializer()
         shown: TwinState | None = None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 from viser import SceneApi
@@ -14,6 +16,8 @@ from twin.scene.shapes import lathe
 
 _MOVED_MM = 0.2
 """A plug that moved less leaves the cable as it is drawn."""
+_PERIOD_S = 0.06
+"""Between two drawings: the cable is most of what is sent, and follows every other step."""
 _PULSE_SEGMENTS = 12
 """Distance of two light pulses that run along the cable while it charges."""
 
@@ -29,7 +33,7 @@ def _link(length_mm: float) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
 
 
 class PlugCable:
-    """The cable's node; its links are placed along a catenary whenever the plug has moved.
+    """The cable's node; its links are placed along a catenary once the plug has moved.
 
     Attributes:
         node: The links.
@@ -41,6 +45,8 @@ class PlugCable:
         self._spec = spec
         self.pull_n: NDArray[np.float64] | None = None
         self._end_mm: NDArray[np.float64] | None = None
+        self._drawn_end_mm: NDArray[np.float64] | None = None
+        self._drawn_at_s = -math.inf
         self._pulse: int | None = None
         vertices, faces = _link(spec.length_mm / cable.SEGMENTS)
         self.node = scene.add_batched_meshes_simple(
@@ -55,10 +61,22 @@ class PlugCable:
         )
 
     def hang_to(self, end_mm: NDArray[np.float64]) -> None:
-        """Lets the cable hang between the station and a point in the base frame [mm]."""
-        if self._end_mm is not None and np.abs(end_mm - self._end_mm).max() < _MOVED_MM:
-            return
+        """Says where the cable ends, in the base frame [mm]; `follow` draws it there."""
         self._end_mm = end_mm
+        if self._drawn_end_mm is None:
+            self._draw(end_mm)
+
+    def follow(self, time_s: float) -> None:
+        """Lets the cable hang to where it ends now, not more often than need be."""
+        end_mm, drawn_mm = self._end_mm, self._drawn_end_mm
+        if end_mm is None or drawn_mm is None or 0 <= time_s - self._drawn_at_s < _PERIOD_S:
+            return
+        if np.abs(end_mm - drawn_mm).max() >= _MOVED_MM:
+            self._draw(end_mm)
+            self._drawn_at_s = time_s
+
+    def _draw(self, end_mm: NDArray[np.float64]) -> None:
+        self._drawn_end_mm = end_mm
         self.pull_n = cable.pull_n(self._spec, self._start_mm, end_mm)
         line = cable.hanging(self._start_mm, end_mm, length_mm=self._spec.length_mm)
         middles, orientations = cable.along(line)

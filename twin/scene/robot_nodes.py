@@ -16,7 +16,14 @@ from twin.scene import layers, plug_parts, poses, robot_parts, room
 from twin.scene.cable import Cable
 from twin.scene.frames import Vector, turn
 from twin.scene.frustum import add_frustum
-from twin.scene.nodes import add_part, add_pivot, place, place_transform, set_visible
+from twin.scene.nodes import (
+    add_part,
+    add_pivot,
+    place,
+    place_transform,
+    set_visible,
+    turn_to,
+)
 from twin.scene.overlays import CAMERA, GHOST
 from twin.scene.plug_cable import PlugCable
 from twin.scene.shapes import Points
@@ -36,8 +43,9 @@ _Z: Vector = (0.0, 0.0, 1.0)
 class RobotNodes:
     """Every moving part is a node whose origin is the part's pivot.
 
-    A, D and E carry the carriages and bars, V the platform, the plug tip P the plug. The parts
-    are hidden while the joints are unknown: the picture claims nothing that nobody measured.
+    A and E carry the carriages, and they the bars, which turn about A, D and E; V carries the
+    platform and the plug tip P the plug. The parts are hidden while the joints are unknown: the
+    picture claims nothing that nobody measured.
 
     Attributes:
         trouble: What is wrong with the last joints in one sentence, empty if nothing is.
@@ -56,6 +64,7 @@ class RobotNodes:
         g = geometry
         self._geometry = g
         self._along_axis = turn(_X, -g.theta_rad)
+        self._cable_outlet_mm = plug_parts.cable_outlet_mm()
         self._impossible: JointPosition | None = None
         self.trouble = ""
         add_part(scene, "/rails", robot_parts.rails(g))
@@ -65,9 +74,10 @@ class RobotNodes:
             scene, "/robot/right_carriage", robot_parts.right_carriage(g)
         )
         bar = robot_parts.bar(g)
-        self.bar_ab = add_part(scene, "/robot/bar_ab", bar)
-        self.bar_df = add_part(scene, "/robot/bar_df", bar)
-        self.bar_ec = add_part(scene, "/robot/bar_ec", bar)
+        d_from_a = (g.platform_width_mm / 2, g.e_py_mm, 0.0)
+        self.bar_ab = add_part(scene, "/robot/left_carriage/bar_ab", bar)
+        self.bar_df = add_part(scene, "/robot/left_carriage/bar_df", bar, at_mm=d_from_a)
+        self.bar_ec = add_part(scene, "/robot/right_carriage/bar_ec", bar)
         self.platform = add_pivot(scene, "/robot/platform")
         add_part(scene, "/robot/platform/body", robot_parts.platform(g))
         rise, reach = gamma.tip_offset(g, 0.0)
@@ -124,16 +134,16 @@ class RobotNodes:
             return None
 
     def _move(self, pose: poses.RobotPose) -> None:
-        left, right = turn(_Z, pose.left_angle_rad), turn(_Z, pose.right_angle_rad)
+        left = turn(_Z, pose.left_angle_rad)
         place(self.left_carriage, pose.a)
+        turn_to(self.bar_ab, left)
+        turn_to(self.bar_df, left)
         place(self.right_carriage, pose.e)
-        place(self.bar_ab, pose.a, left)
-        place(self.bar_df, pose.d, left)
-        place(self.bar_ec, pose.e, right)
+        turn_to(self.bar_ec, turn(_Z, pose.right_angle_rad))
         place(self.platform, pose.v)
         x, y, z = (float(p - v) for p, v in zip(pose.plug, pose.v, strict=True))
         place(self.plug, (x, y, z))
-        self.cable.hang_to(self.plug_point_mm(pose.plug, plug_parts.cable_outlet_mm()))
+        self.cable.hang_to(self.plug_point_mm(pose.plug, self._cable_outlet_mm))
 
     def plug_point_mm(self, tip_mm: Vector, point_mm: Points) -> Points:
         """A point of the plug's frame, shape (3,), in the base frame, for a place of its tip."""

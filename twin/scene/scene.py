@@ -19,7 +19,7 @@ from twin.scene.overlays.regions import add_regions, reach_of
 from twin.scene.overlays.spread import InvalidCovarianceError, SpreadNodes
 from twin.scene.robot_nodes import RobotNodes
 from twin.scene.state import TwinState
-from twin.statics import SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 _LINKS_PER_S = 12.0
 """Speed of the light along the cable."""
@@ -39,7 +39,8 @@ class TwinScene:
         *,
         hfov_rad: float,
         aspect: float,
-        cable: Cable,
+        loads: Loads,
+        limits: ActuatorLimits,
         sag: SagTables,
     ) -> None:
         """Builds the scene and shows a robot of which nothing is known.
@@ -50,7 +51,8 @@ class TwinScene:
             mount: Where its camera sits.
             hfov_rad: The camera's horizontal field of view.
             aspect: Width of its picture divided by its height.
-            cable: The charging cable.
+            loads: What the robot carries, its cable too, and the largest forces at the plug.
+            limits: What its actuators can hold.
             sag: The table of the sag at the nine points.
         """
         scene.set_up_direction("+y")
@@ -61,10 +63,11 @@ class TwinScene:
         x, y, z = room.station_place_mm(geometry)
         add_part(scene, "/room/station", room.station(), at_mm=(x, y, z))
         self.robot = RobotNodes(
-            scene, geometry, mount, hfov_rad=hfov_rad, aspect=aspect, cable=cable
+            scene, geometry, mount, hfov_rad=hfov_rad, aspect=aspect, cable=Cable.of(loads)
         )
         self.car = CarNodes(scene, geometry)
         self._add_overlays(scene, geometry, sag)
+        self.forces = ForceNodes(scene, geometry, loads, limits)
         at = (geometry.base_width_mm / 2, geometry.e1y_mm + 60.0, 0.0)
         self.notice = add_label(scene, "/notice", "", at_mm=at, visible=False)
         self.divergence = DivergenceMarks(scene)
@@ -78,7 +81,6 @@ class TwinScene:
         add_nine_points(scene, geometry, sag)
         self.path = PathNodes(scene)
         self.spread = SpreadNodes(scene)
-        self.forces = ForceNodes(scene, geometry)
 
     def show(self, state: TwinState) -> None:
         """Moves every node to a state. Nodes that did not move send nothing.
@@ -101,7 +103,12 @@ class TwinScene:
         self._charging = state.charging
 
     def animate(self, time_s: float) -> None:
-        """Moves the light along the cable while the car charges; lets alarms pulse."""
+        """Moves what takes its own time: cable, the light along it while the car charges, alarms.
+
+        Args:
+            time_s: Of any clock, growing from call to call.
+        """
+        self.robot.cable.follow(time_s)
         step = int(time_s * _LINKS_PER_S) if self._charging else None
         self.robot.cable.show_flow(step)
         self.divergence.animate(time_s)

@@ -13,7 +13,7 @@ import rich
 import viser
 from viser import _messages as messages
 
-from twin.scene.message_buffer import replay_what_is_kept
+from twin.scene.message_buffer import send_what_is_kept
 
 if TYPE_CHECKING:
     from viser.infra import WebsockClientConnection
@@ -36,7 +36,7 @@ def open_server() -> viser.ViserServer:
     raw.unregister_handler(messages.ShareUrlRequest)
     raw.unregister_handler(messages.ShareUrlDisconnect)
 
-    replay_what_is_kept(server)
+    send_what_is_kept(server)
 
     @raw.on_client_connect
     def _(connection: WebsockClientConnection) -> None:

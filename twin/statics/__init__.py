@@ -8,11 +8,12 @@ from twin.statics.actuators import (
     alpha_actuator_forces_many,
 )
 from twin.statics.along_plan import PlanForces, WorstForce, forces_along
-from twin.statics.deflection import Sag, SagTables, SagValidity, sag
+from twin.statics.deflection import DEFAULT_TABLES, Sag, SagTables, SagValidity, sag
 from twin.statics.limits import ActuatorLimits
 from twin.statics.loads import LoadCase, Loads, actuator_loads, actuator_loads_many
 
 __all__ = [
+    "DEFAULT_TABLES",
     "ActuatorLimits",
     "JointForces",
     "LoadCase",

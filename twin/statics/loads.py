@@ -51,6 +51,9 @@ class Loads(BaseModel):
     slide_mass_kg: Mass = Field(1.0, description="what rho3 moves: plug and its holder")
     bar_mass_kg: Mass = Field(0.3, description="each of the three leg bars")
     cable_mass_kg: Mass = Field(1.4, description="the charging cable")
+    cable_length_mm: float = Field(
+        1500.0, gt=0, le=20_000, description="of the cable from the station to the plug"
+    )
     cable_share: float = Field(
         0.5, ge=0, le=1, description="of the cable's weight that hangs on the plug"
     )

@@ -41,6 +41,12 @@ _SPLAT_SORTER = re.compile(
 _NEVER = b"new Promise(()=>{})"
 _WORKER_SOURCE = re.compile(rb'(?<==)"(?:[^"\\]|\\.){10000,}"(?=,\w+=typeof self<`u`&&self\.Blob)')
 _WASM = re.compile(rb"(?<=data:application/wasm;base64,)[A-Za-z0-9+/=]{1000,}")
+_SIMPLIFIER = re.compile(
+    rb"(?P<start>var e=)`b9H79T[^`]+`(?P<middle>(?:(?!WebAssembly\.instantiate).){0,600}?)"
+    rb"WebAssembly\.instantiate\(i\(e\),\{\}\)",
+    re.DOTALL,
+)
+"""What makes coarser copies of meshes for far away; every mesh here says that it wants none."""
 _SURROUNDINGS = re.compile(rb"(?<==`data:image/jpeg;base64,)[A-Za-z0-9+/=]{1000,}")
 _TEST_HOOK = b"r.__viserSceneTree={getState:"
 _TEST_HOOK_WITH_ACTIONS = b"r.__viserSceneTree={actions:e.sceneTreeActions,getState:"
@@ -88,8 +94,9 @@ def client_page() -> Path:
 def small_client() -> Client:
     """Takes the installed client apart and makes it smaller.
 
-    Left out are the style of the control panel, the sorter of point splats and the photographed
-    surroundings that metal mirrors; a garage of our own, a tenth of the size, takes their place.
+    Left out are the style of the control panel, the sorter of point splats, the simplifier of
+    meshes and the photographed surroundings that metal mirrors; a garage of our own, a tenth of
+    the size, takes their place.
     Opened up is the store of the scene's nodes, which the client shows to its tests: with its
     actions the page can hide nodes for one viewer alone.
 
@@ -153,9 +160,10 @@ def _without_waste(code: bytes) -> bytes:
     code = _WORKER_SOURCE.sub(lambda found: b'""' if b"Sorter" in found[0] else found[0], code)
     code, sorters = _SPLAT_SORTER.subn(_NEVER, code)
     code = _WASM.sub(b"", code)
+    code, simplifiers = _SIMPLIFIER.subn(rb"\g<start>``\g<middle>" + _NEVER, code)
     code, pictures = _SURROUNDINGS.subn(garage, code)
     hooks = code.count(_TEST_HOOK)
-    if (sorters, pictures, hooks) != (1, 1, 1):
+    if (sorters, simplifiers, pictures, hooks) != (1, 1, 1, 1):
         msg = "The 3D client has changed inside; pin viser to the version in pyproject.toml."
         raise ClientPageError(msg)
     return code.replace(_TEST_HOOK, _TEST_HOOK_WITH_ACTIONS)

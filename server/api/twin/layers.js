@@ -34,6 +34,7 @@ setInterval(apply, LOOK_AGAIN_MS);
 
 function choose(layer, visible) {
   chosen[layer.id] = visible;
+  layer.chosenAt = visible ? performance.now() : 0;
   try {
     localStorage.setItem(KEPT_AS, JSON.stringify(chosen));
   } catch {

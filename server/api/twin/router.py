@@ -64,7 +64,8 @@ def twin_router(
 
     @router.get("/twin/")
     async def page_of_twin(request: Request) -> Response:
-        if not await _is_ready(host):
+        # A recording plays back without the live picture.
+        if "playbackPath" not in request.query_params and not await _is_ready(host):
             return HTMLResponse(
                 _NOT_READY,
                 status_code=503,

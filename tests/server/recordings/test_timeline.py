@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from datetime import UTC, datetime
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,12 +18,15 @@ from server.recordings.topics import (
     DIVERGENCE,
     EVENT,
     HEADER,
+    PLAN,
     ROBOT,
     SOCKET,
     STATION,
     DivergenceRecord,
     EventRecord,
     JointsRecord,
+    PlanRecord,
+    PointRecord,
     RobotRecord,
     SocketRecord,
     StationRecord,
@@ -30,6 +35,7 @@ from server.schema.divergence import DivergenceReport
 from server.schema.jobs import Job, JobResult
 from server.schema.robot import Joints
 from twin.divergence import Quantity
+from twin.statics import SagTables
 
 NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
 JOB = Job(
@@ -46,6 +52,12 @@ JOB = Job(
     result=JobResult(),
     error=None,
 )
+
+
+def with_config(config: dict[str, Any]) -> Entry:
+    """The header of a recording with another configuration."""
+    header = header_record(Settings(), JOB, "Simulator", NOW)
+    return Entry(HEADER, 0, header.model_copy(update={"config_json": json.dumps(config)}))
 
 
 class Tape:
@@ -213,3 +225,43 @@ def test_nothing_to_play_is_an_error() -> None:
     tape.entries.pop(0)
     with pytest.raises(NothingToPlayError):
         tape.play()
+
+
+def test_the_planned_way_is_shown_while_it_is_followed() -> None:
+    tape = Tape()
+    tape.robot()
+    tips = [PointRecord(x_mm=600.0, y_mm=300.0 + i, z_mm=200.0) for i in range(3)]
+    tape._put(PLAN, PlanRecord(times_s=[0.0, 0.5, 1.0], tips=tips))
+    tape.move(1.0)
+    tape._put(PLAN, PlanRecord(times_s=[], tips=[]))
+    tape.move(1.0)
+    frames = tape.play().frames
+    paths = [frame.state.path for frame in frames]
+    shown = [path for path in paths if path is not None]
+    assert shown
+    assert all(path is shown[0] for path in shown)  # the same object: drawn once
+    assert shown[0].duration_s == 1.0
+    assert shown[0].tips_mm[2] == pytest.approx([600, 302, 200])
+    assert paths[-1] is None
+
+
+def test_cable_and_sag_are_those_of_the_recorded_robot() -> None:
+    header = json.loads(header_record(Settings(), JOB, "Simulator", NOW).config_json)
+    header["loads"] |= {"cable_length_mm": 2000.0, "cable_mass_kg": 1.9}
+    header["sag"]["alpha_x_mm"] = [500.0, 600.0, 700.0]
+    tape = Tape()
+    tape.entries[0] = with_config(header)
+    tape.robot()
+    robot = tape.play().robot
+    assert (robot.loads.cable_length_mm, robot.loads.cable_mass_kg) == (2000.0, 1.9)
+    assert robot.sag.alpha_x_mm == (500.0, 600.0, 700.0)
+
+
+def test_a_recording_that_is_older_than_these_settings_is_played_with_the_published_ones() -> None:
+    header = json.loads(header_record(Settings(), JOB, "Simulator", NOW).config_json)
+    del header["loads"], header["actuators"], header["sag"]
+    tape = Tape()
+    tape.entries[0] = with_config(header)
+    tape.robot()
+    robot = tape.play().robot
+    assert (robot.loads.cable_length_mm, robot.sag) == (1500.0, SagTables())

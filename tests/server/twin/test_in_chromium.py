@@ -26,7 +26,7 @@ SMALL: ViewportSize = {"width": 160, "height": 120}
 HOME = JointPosition(200.0, 200.0, 60.0)
 PICTURE = "/robot/platform/camera/view/picture"
 NODES = [
-    "/robot/bar_ab",
+    "/robot/left_carriage/bar_ab",
     "/robot/platform/plug",
     "/car/inlet",
     "/label",
@@ -215,3 +215,33 @@ async def until_shown(page: Page, node: str, *, shown: bool) -> None:
         return bool(await page.evaluate(effective, node) is shown)
 
     await eventually(is_so, within_s=20)
+
+
+HIDDEN_WORDS = """() => Object.values(window.__viserSceneTree.getState())
+  .filter((node) => node?.message?.type === "LabelMessage" && node.overrideVisibility === false)
+  .map((node) => node.message.name)"""
+
+
+async def test_words_make_room_for_those_of_the_layer_chosen_last(
+    chromium: Browser, host: TwinHost, serve: Serve
+) -> None:
+    host.publish(TwinState(measured=HOME))
+    async with serve(host) as address:
+        page = await open_twin(chromium, address)
+        await page.wait_for_selector("html[data-twin=live]", state="attached", timeout=30_000)
+        # They stand about the same square, and the screen is far too small for both.
+        size = "/overlays/box/size"
+        await page.evaluate("() => document.querySelector('#twin-bar button').click()")
+
+        async def size_becomes(*, hidden: bool) -> None:
+            async def is_so() -> bool:
+                return (size in await page.evaluate(HIDDEN_WORDS)) is hidden
+
+            await eventually(is_so, within_s=30)
+
+        for layers, hidden in ((("box", "sag"), True), (("sag", "box"), False)):
+            for layer in layers:
+                switch = page.locator(f"[data-layer={layer}]")
+                await switch.uncheck()
+                await switch.check()
+            await size_becomes(hidden=hidden)

@@ -22,6 +22,7 @@ from twin.joints import JointPosition
 from twin.kinematics import gamma
 from twin.scene import TwinHost, TwinState
 from twin.scene.playback import PlaybackFrame, build_playback
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 pytestmark = pytest.mark.browser
 
@@ -85,10 +86,8 @@ def platform_is_at(joints: JointPosition) -> str:
 RING_IS = "frames[0].__viserSceneTree.getState()['/robot/left_carriage/parted']?.visibility === {}"
 
 
-async def test_a_playback_plays_jumps_pauses_and_shows_what_has_parted(
-    chromium: Browser, host: TwinHost, tmp_path: Path
-) -> None:
-    file = tmp_path / "a.viser"
+async def make_playback(folder: Path) -> Path:
+    file = folder / "a.viser"
     file.write_bytes(
         await asyncio.to_thread(
             build_playback,
@@ -96,9 +95,45 @@ async def test_a_playback_plays_jumps_pauses_and_shows_what_has_parted(
             CameraMount(),
             hfov_rad=1.0,
             aspect=4 / 3,
+            loads=Loads(),
+            limits=ActuatorLimits(),
+            sag=SagTables(),
             frames=states(),
         )
     )
+    return file
+
+
+async def test_in_a_window_of_its_own_it_has_a_player_and_needs_no_live_picture(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    never_started = TwinHost(RobotGeometry(), CameraMount(), 1.0, 4 / 3)
+    async with serve(never_started, await make_playback(tmp_path)) as address:
+        page = await chromium.new_page(viewport={"width": 320, "height": 240})
+        faults: list[str] = []
+        page.on("pageerror", lambda e: faults.append(str(e)))
+        await page.goto(f"{address}/twin/?playbackPath=%2Fa.viser&fixedDpr=0.25")
+        player = page.locator("#twin-player")
+        await player.wait_for(timeout=60_000)
+        assert await page.locator("input.mantine-NumberInput-input:visible").count() == 0
+
+        await player.get_by_role("slider").fill("150")
+        here = "frames.length === 0 && " + platform_is_at(END).replace("frames[0].", "window.")
+        await until(page, here)
+        await player.get_by_role("button", name="Play").click()  # a jump has paused it
+        await player.get_by_role("button", name="Pause").click()
+        await player.get_by_role("button", name="Play").wait_for()
+        assert " / 10:00" in await player.locator("output").inner_text()
+        await player.get_by_role("slider").fill("20")
+        await until(page, platform_is_at(BEGIN).replace("frames[0].", "window."))
+        assert await player.locator("output").inner_text() == "0:20 / 10:00"
+        assert faults == []
+
+
+async def test_a_playback_plays_jumps_pauses_and_shows_what_has_parted(
+    chromium: Browser, host: TwinHost, tmp_path: Path
+) -> None:
+    file = await make_playback(tmp_path)
     async with serve(host, file) as address:
         page = await chromium.new_page(viewport={"width": 200, "height": 160})
         faults: list[str] = []

@@ -10,9 +10,9 @@ import viser
 
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
-from twin.scene import Cable, viser_server
+from twin.scene import viser_server
 from twin.scene.scene import TwinScene
-from twin.statics import SagTables
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 
 @pytest.fixture
@@ -40,6 +40,7 @@ def build_scene(server: viser.ViserServer, geometry: RobotGeometry) -> TwinScene
         CameraMount(),
         hfov_rad=math.radians(62.2),
         aspect=4 / 3,
-        cable=Cable(),
+        loads=Loads(),
+        limits=ActuatorLimits(),
         sag=SagTables(),
     )

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from viser.transforms import SO3
 
 from twin.scene import cable
+from twin.statics import Loads
 
-SPEC = cable.Cable()
+SPEC = cable.Cable.of(Loads())
 LENGTH_MM = SPEC.length_mm
 
 coordinate = st.floats(-600, 600)
@@ -97,7 +98,7 @@ def test_it_pulls_along_its_own_last_link() -> None:
 
 def test_a_heavier_cable_pulls_harder_in_the_same_direction() -> None:
     ends = np.zeros(3), np.array([700.0, 100.0, 0.0])
-    light, heavy = (cable.pull_n(cable.Cable(mass_kg=m), *ends) for m in (1.4, 1.85))
+    light, heavy = (cable.pull_n(cable.Cable(LENGTH_MM, m), *ends) for m in (1.4, 1.85))
     assert light is not None
     assert heavy == pytest.approx(light * 1.85 / 1.4)
 

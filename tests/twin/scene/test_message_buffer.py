@@ -5,16 +5,19 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import inspect
+from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
 import pytest
 import viser
 from viser.infra._async_message_buffer import AsyncMessageBuffer
+from viser.infra._messages import Message
 
 from tests.support.eventually import eventually
 from tests.support.twin_client import TwinClient
 from twin.scene import viser_server
-from twin.scene.message_buffer import ReplayBuffer
+from twin.scene.message_buffer import ReplayBuffer, library_producer
 
 
 def address_of(server: viser.ViserServer) -> str:
@@ -29,6 +32,8 @@ def buffer_of(server: viser.ViserServer) -> ReplayBuffer:
 
 DIGEST = "622c10d1a9e84168629a80f973fbfe02d3aa80b41d0b51b1ede6865419fdc96f"
 """Of the library's own loop."""
+PRODUCER_DIGEST = "8283328d06cfa014576888930c49a857a2d79892dc89f9694444895945018ea3"
+"""Of what it sends with."""
 
 
 class CountingNumbers(dict[int, Any]):
@@ -41,10 +46,14 @@ class CountingNumbers(dict[int, Any]):
         return super().get(key, default)
 
 
+def digest_of(function: Callable[..., object]) -> str:
+    return hashlib.sha256(inspect.getsource(function).encode()).hexdigest()
+
+
 def test_what_it_replaces_is_what_it_was_written_for() -> None:
-    source = inspect.getsource(AsyncMessageBuffer._window_loop)
-    digest = hashlib.sha256(source.encode()).hexdigest()
-    assert digest == DIGEST, "compare ReplayBuffer with the library's new loop"
+    loop, producer = digest_of(AsyncMessageBuffer._window_loop), digest_of(library_producer)
+    assert loop == DIGEST, "compare ReplayBuffer with the library's new loop"
+    assert producer == PRODUCER_DIGEST, "compare FramePacker and send_frames with the new one"
 
 
 async def test_a_late_browser_sees_the_newest_of_everything(server: viser.ViserServer) -> None:
@@ -106,15 +115,74 @@ async def test_a_browser_that_left_holds_nothing(server: viser.ViserServer) -> N
     await eventually(lambda: not buffer_of(server).generator_cursors)
 
 
-async def test_a_wake_up_that_got_lost_holds_nothing_up(server: viser.ViserServer) -> None:
+async def test_what_is_set_elsewhere_than_in_the_loop_wakes_nobody_in_between(
+    server: viser.ViserServer,
+) -> None:
+    event = buffer_of(server).message_event
+    event.set()  # this test runs in another loop than the library's
+    assert not event.is_set()
+    buffer_of(server).event_loop.call_soon_threadsafe(event.set)
+    await eventually(event.is_set)
+
+
+async def test_steps_that_replaced_each_other_before_they_were_sent_hold_nothing_up(
+    server: viser.ViserServer,
+) -> None:
     node = server.scene.add_frame("/node")
-    buffer = buffer_of(server)
     async with TwinClient.connected(address_of(server)) as client:
         await client.until_replayed()
-        # As when another thread sets it between the look at it and the wait for it: it is set,
-        # so that setting it again does nothing, but who waits was not told.
-        await eventually(lambda: bool(buffer.message_event._waiters))
-        vars(buffer.message_event)["_value"] = True
-        node.position = (7.0, 0.0, 0.0)
+        with server.atomic():
+            # More than fit into one frame, and all but the last one are gone; and a week of such.
+            for step in range(1, 2 * buffer_of(server).max_window_size):
+                node.position = (float(step), 0.0, 0.0)
+            with buffer_of(server).buffer_lock:
+                buffer_of(server).message_counter += 7 * 24 * 3600 * 30 * 20
+            node.position = (float(step + 1), 0.0, 0.0)
         async with asyncio.timeout(5):
-            await client.until_position("/node", 7.0)
+            await client.until_position("/node", float(step + 1))
+
+
+async def test_browsers_that_see_the_same_share_their_frames(
+    server: viser.ViserServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = server.scene.add_frame("/node")
+    line = server.scene.add_line_segments(
+        "/line", points=np.zeros((2, 2, 3), np.float32), colors=(0, 0, 0)
+    )
+    packer = buffer_of(server).packer
+    packed: list[int] = []
+    pack = packer._packed
+
+    def counted(window: Sequence[Message]) -> bytes:
+        packed.append(len(window))
+        return pack(window)
+
+    monkeypatch.setattr(packer, "_packed", counted)
+    async with (
+        TwinClient.connected(address_of(server)) as first,
+        TwinClient.connected(address_of(server)) as second,
+    ):
+        await first.until_replayed()
+        await second.until_replayed()
+        packed.clear()
+        for step in range(1, 11):
+            with server.atomic():
+                node.position = (float(step), 0.0, 0.0)
+                line.points = np.full((2, 2, 3), step, np.float32)
+            await asyncio.gather(
+                first.until_position("/node", step), second.until_position("/node", step)
+            )
+    assert len(packed) == 10
+
+
+async def test_servers_that_were_not_changed_send_as_before(server: viser.ViserServer) -> None:
+    assert buffer_of(server).packer
+    other = viser.ViserServer(host=viser_server.LOOPBACK, port=0, verbose=False)
+    try:
+        node = other.scene.add_frame("/node")
+        async with TwinClient.connected(address_of(other)) as client:
+            await client.until_replayed()
+            node.position = (3.0, 0.0, 0.0)
+            await client.until_position("/node", 3.0)
+    finally:
+        other.stop()

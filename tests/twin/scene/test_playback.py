@@ -16,6 +16,7 @@ from twin.joints import JointPosition
 from twin.kinematics import gamma
 from twin.scene.playback import PlaybackFrame, build_playback
 from twin.scene.state import TwinState
+from twin.statics import ActuatorLimits, Loads, SagTables
 
 BEGIN = JointPosition(200.0, 200.0, 60.0)
 
@@ -31,7 +32,14 @@ def decoded(packed: bytes) -> dict[str, Any]:
 
 def playback(frames: list[PlaybackFrame]) -> dict[str, Any]:
     packed = build_playback(
-        RobotGeometry(), CameraMount(), hfov_rad=1.0, aspect=4 / 3, frames=frames
+        RobotGeometry(),
+        CameraMount(),
+        hfov_rad=1.0,
+        aspect=4 / 3,
+        loads=Loads(),
+        limits=ActuatorLimits(),
+        sag=SagTables(),
+        frames=frames,
     )
     return decoded(packed)
 

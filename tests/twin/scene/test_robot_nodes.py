@@ -28,9 +28,25 @@ def at_mm(node: SceneNodeHandle) -> NDArray[np.float64]:
     return np.asarray(node.position) * 1000
 
 
-def point_mm(node: SceneNodeHandle, local_mm: tuple[float, float, float]) -> NDArray[np.float64]:
-    """A point of a node that hangs on the root, in the base frame."""
-    return at_mm(node) + SO3(np.asarray(node.wxyz)).as_matrix() @ local_mm
+def point_mm(
+    node: SceneNodeHandle,
+    local_mm: tuple[float, float, float],
+    on: SceneNodeHandle | None = None,
+) -> NDArray[np.float64]:
+    """A point of a node, which hangs on the root or on an unturned node, in the base frame."""
+    parent = np.zeros(3) if on is None else at_mm(on)
+    return parent + at_mm(node) + SO3(np.asarray(node.wxyz)).as_matrix() @ local_mm
+
+
+def links(scene: TwinScene) -> NDArray[np.float32]:
+    """Middles of the cable's links [m]."""
+    return np.array(scene.robot.cable.node.batched_positions)
+
+
+def outlet_mm(scene: TwinScene) -> NDArray[np.float64]:
+    """Where the cable leaves the plug, in the base frame."""
+    plug = scene.robot.plug
+    return point_mm(plug, tuple(plug_parts.cable_outlet_mm()), scene.robot.platform)
 
 
 def test_bars_platform_and_plug_follow_the_joints(
@@ -49,19 +65,15 @@ def test_bars_platform_and_plug_follow_the_joints(
         # Nodes are moved unless viser finds the new pose equal to the old to 1e-5.
         assert at_mm(nodes.left_carriage) == pytest.approx(left, abs=1e-6, rel=0)
         assert at_mm(nodes.right_carriage) == pytest.approx(right, abs=1e-6, rel=0)
-        assert point_mm(nodes.bar_ab, (0, 0, 0)) == pytest.approx(left, abs=1e-6, rel=0)
-        assert point_mm(nodes.bar_ab, (length, 0, 0)) == pytest.approx(
-            (x - half, y, 0), abs=1e-6, rel=0
-        )
-        assert point_mm(nodes.bar_ec, (0, 0, 0)) == pytest.approx(right, abs=1e-6, rel=0)
-        assert point_mm(nodes.bar_ec, (length, 0, 0)) == pytest.approx(
-            (x + half, y, 0), abs=1e-6, rel=0
-        )
         foot = point_mm(nodes.left_carriage, (half, g.e_py_mm, 0))
-        assert point_mm(nodes.bar_df, (0, 0, 0)) == pytest.approx(foot, abs=1e-6, rel=0)
-        assert point_mm(nodes.bar_df, (length, 0, 0)) == pytest.approx(
-            (x, y + g.e_py_mm, 0), abs=1e-6, rel=0
-        )
+        for bar, carriage, pivot, end in (
+            (nodes.bar_ab, nodes.left_carriage, left, (x - half, y, 0)),
+            (nodes.bar_df, nodes.left_carriage, foot, (x, y + g.e_py_mm, 0)),
+            (nodes.bar_ec, nodes.right_carriage, right, (x + half, y, 0)),
+        ):
+            assert bar.name.startswith(f"{carriage.name}/")
+            assert point_mm(bar, (0, 0, 0), carriage) == pytest.approx(pivot, abs=1e-6, rel=0)
+            assert point_mm(bar, (length, 0, 0), carriage) == pytest.approx(end, abs=1e-6, rel=0)
         assert at_mm(nodes.platform) == pytest.approx((x, y, 0), abs=1e-6, rel=0)
         tip = at_mm(nodes.platform) + at_mm(nodes.plug)
         assert tip == pytest.approx(tuple(gamma.forward(g, joints)), abs=1e-6, rel=0)
@@ -73,27 +85,42 @@ def test_the_cable_runs_from_the_station_to_the_plug(
     scene: TwinScene, geometry: RobotGeometry
 ) -> None:
     scene.show(TwinState(measured=HOME))
-    cable = scene.robot.cable.node
-    links = np.asarray(cable.batched_positions) * 1000
-    half_link = 1500 / len(links) / 2
-    start = room.cable_inlet_mm(geometry)
-    plug = scene.robot.plug
-    outlet = plug_parts.cable_outlet_mm()
-    turn = SO3(np.asarray(plug.wxyz)).as_matrix()
-    end = at_mm(scene.robot.platform) + at_mm(plug) + turn @ outlet
-    assert np.linalg.norm(links[0] - start) == pytest.approx(half_link, abs=0.5)
-    assert np.linalg.norm(links[-1] - end) == pytest.approx(half_link, abs=0.5)
-    assert links[:, 1].min() < min(start[1], end[1]) - 100
-    assert links[:, 1].min() > -330  # above the floor
+    middles = links(scene) * 1000
+    half_link = 1500 / len(middles) / 2
+    start, end = room.cable_inlet_mm(geometry), outlet_mm(scene)
+    assert np.linalg.norm(middles[0] - start) == pytest.approx(half_link, abs=0.5)
+    assert np.linalg.norm(middles[-1] - end) == pytest.approx(half_link, abs=0.5)
+    assert middles[:, 1].min() < min(start[1], end[1]) - 100
+    assert middles[:, 1].min() > -330  # above the floor
 
 
 def test_a_plug_that_stands_still_sends_no_cable(scene: TwinScene) -> None:
     scene.show(TwinState(measured=HOME))
-    before = np.asarray(scene.robot.cable.node.batched_positions).copy()
+    before = links(scene)
     scene.show(TwinState(measured=HOME._replace(rho3_mm=HOME.rho3_mm + 0.1)))
-    assert (np.asarray(scene.robot.cable.node.batched_positions) == before).all()
+    scene.animate(0.0)
+    assert (links(scene) == before).all()
     scene.show(TwinState(measured=HOME._replace(rho3_mm=HOME.rho3_mm + 1)))
-    assert (np.asarray(scene.robot.cable.node.batched_positions) != before).any()
+    scene.animate(0.1)
+    assert (links(scene) != before).any()
+
+
+def test_the_cable_follows_every_other_step_and_ends_where_the_plug_stopped(
+    scene: TwinScene,
+) -> None:
+    drawn: set[bytes] = set()
+    for step in range(31):
+        scene.show(TwinState(measured=HOME._replace(rho3_mm=60.0 + step)))
+        scene.animate(step / 30)
+        drawn.add(links(scene).tobytes())
+    assert 15 <= len(drawn) <= 17
+    scene.animate(2.0)
+    arrived = links(scene)
+    scene.show(TwinState(measured=HOME._replace(rho3_mm=90.0)))
+    scene.animate(3.0)
+    assert (links(scene) == arrived).all()
+    behind = np.linalg.norm(arrived[-1] * 1000 - outlet_mm(scene))
+    assert behind == pytest.approx(1500 / len(arrived) / 2, abs=0.5)
 
 
 def test_a_robot_that_knows_no_position_is_not_shown(scene: TwinScene) -> None:

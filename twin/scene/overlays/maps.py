@@ -71,22 +71,9 @@ def add_condition_map(scene: SceneApi, geometry: RobotGeometry, reach: ArcPolygo
         f"{name}/legend",
         _scale(),
         title="condition",
-        ends=("1", f"{WORST_CONDITION:g} or more"),
+        ends=("1", f"≥ {WORST_CONDITION:g}"),
         foot_mm=(extent.x_max_mm + _LEGEND_GAP, extent.y_min_mm + 0.2 * height, 0.0),
         height_mm=0.6 * height,
-    )
-
-
-def nine_points(geometry: RobotGeometry) -> NDArray[np.float64]:
-    """The nine positions of V of the sag's table, row by row from the origin, shape (9, 3) [mm]."""
-    box = geometry.regular_box
-    steps = (-0.5, 0.0, 0.5)
-    return np.array(
-        [
-            (box.center_x_mm + i * box.width_mm, box.center_y_mm + j * box.height_mm, 0.0)
-            for j in steps
-            for i in steps
-        ]
     )
 
 
@@ -96,7 +83,7 @@ def add_nine_points(scene: SceneApi, geometry: RobotGeometry, tables: SagTables)
     add_pivot(scene, name, visible=False)
     sags = np.array(tables.alpha_mm).ravel()
     scale = ColorScale(float(sags.min()), float(sags.max()), GOOD_TO_BAD)
-    points = nine_points(geometry)
+    points = np.array([(v.x_mm, v.y_mm, 0.0) for v, _ in tables.nine_points])
     scene.add_point_cloud(
         f"{name}/points",
         points=(points * METRES_PER_MM).astype(np.float32),

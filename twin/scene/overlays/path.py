@@ -49,13 +49,15 @@ class PathNodes:
         self.start = add_label(scene, f"{name}/way/start", "0 s", anchor="top-center")
         self.end = add_label(scene, f"{name}/way/end", "")
         self._shown: PlannedPath | None = None
+        self._length_mm = 0.0
 
     def show(self, path: PlannedPath | None) -> None:
         """Draws a plan, once; hides the way while there is none."""
         if path is not None and path is not self._shown:
-            self._draw(path)
             self._shown = path
-        set_visible(self.way, visible=path is not None and length_mm(path) >= LEAST_LENGTH_MM)
+            self._length_mm = length_mm(path)
+            self._draw(path)
+        set_visible(self.way, visible=path is not None and self._length_mm >= LEAST_LENGTH_MM)
 
     def _draw(self, path: PlannedPath) -> None:
         times, tips = evenly_in_time(path, PIECES)
@@ -65,4 +67,4 @@ class PathNodes:
         self.line.colors = np.stack([colors[:-1], colors[1:]], axis=1)
         self.start.position = metres(tips[0])
         self.end.position = metres(tips[-1])
-        set_text(self.end, f"{path.duration_s:.1f} s, {length_mm(path):.0f} mm")
+        set_text(self.end, f"{path.duration_s:.1f} s, {self._length_mm:.0f} mm")

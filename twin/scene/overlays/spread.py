@@ -94,19 +94,24 @@ class SpreadNodes:
             receive_shadow=False,
         )
         self.label = add_label(scene, f"{name}/place/size", "", at_mm=(0.0, 55.0, 0.0))
+        self._drawn: tuple[Pose | None, NDArray[np.float64] | None] = (None, None)
 
     def show(self, state: TwinState) -> None:
-        """Draws the newest measurement.
+        """Draws the newest measurement, once.
 
         Raises:
             InvalidCovarianceError: what was measured has no ellipsoid; nothing is shown.
         """
+        newest = (state.T_base_socket, state.socket_covariance_mm2)
+        if all(new is old for new, old in zip(newest, self._drawn, strict=True)):
+            return
         try:
             known = self._draw(state.T_base_socket, state.socket_covariance_mm2)
         except InvalidCovarianceError:
             set_visible(self.place, visible=False)
             raise
         set_visible(self.place, visible=known)
+        self._drawn = newest
 
     def _draw(self, T_base_socket: Pose | None, covariance_mm2: NDArray[np.float64] | None) -> bool:
         if T_base_socket is None or covariance_mm2 is None:

@@ -7,11 +7,12 @@ import pytest
 import viser
 
 from twin.geometry import RobotGeometry
-from twin.scene.overlays import CONDITION
+from twin.scene.overlays import CONDITION, SAG
 from twin.scene.overlays.colors import GOOD_TO_BAD, ColorScale
-from twin.scene.overlays.maps import STEP_MM, condition_picture, nine_points
+from twin.scene.overlays.maps import STEP_MM, add_nine_points, condition_picture
 from twin.scene.overlays.regions import SAGITTA_MM, reach_of, segments_m
 from twin.scene.scene import TwinScene
+from twin.statics import SagTables
 from twin.workspace import Measure, measure_rows
 
 
@@ -60,17 +61,19 @@ def test_the_outline_is_closed_and_on_the_boundary(geometry: RobotGeometry) -> N
     assert reach.contains_many(inwards.astype(float)).mean() > 0.9
 
 
-def test_nine_points_run_row_by_row_from_the_corner_nearest_the_origin(
-    geometry: RobotGeometry,
-) -> None:
-    points = nine_points(geometry)
-    assert points[0] == pytest.approx([550, 235, 0])
-    assert points[1] == pytest.approx([650, 235, 0])
-    assert points[8] == pytest.approx([750, 435, 0])
+def test_the_nine_points_stand_where_the_table_says(server: viser.ViserServer) -> None:
+    tables = SagTables(alpha_x_mm=(500.0, 600.0, 720.0), alpha_y_mm=(300.0, 350.0, 420.0))
+    add_nine_points(server.scene, RobotGeometry(), tables)
+    cloud = server.scene._handle_from_node_name[f"{SAG.nodes[0]}/points"]
+    assert isinstance(cloud, viser.PointCloudHandle)
+    points = np.asarray(cloud.points) * 1000
+    assert points[0] == pytest.approx([500, 300, 0])
+    assert points[1] == pytest.approx([600, 300, 0])
+    assert points[8] == pytest.approx([720, 420, 0])
 
 
 def test_the_legend_says_where_the_colours_end(scene: TwinScene, server: viser.ViserServer) -> None:
     assert scene
     label = server.scene._handle_from_node_name[f"{CONDITION.nodes[0]}/legend/high"]
     assert isinstance(label, viser.LabelHandle)
-    assert label.text == "condition 6 or more"
+    assert label.text == "condition ≥ 6"

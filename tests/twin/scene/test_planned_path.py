@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from server.live.twin_feed import Way, planned_path
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import gamma
 from twin.motion import JointState, MotionLimits, MotionPlan, plan_joint_move
+from twin.scene.planned_path import Way, planned_path
 
 GEOMETRY = RobotGeometry()
 START, END = JointPosition(120.0, 250.0, 60.0), JointPosition(200.0, 180.0, 130.0)
