@@ -8,11 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
+from server.vision.fitting.blurred_code import BlurredCode
 from server.vision.fitting.code_edges import CodeEdges, thinned
 from server.vision.fitting.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
 from server.vision.fitting.edge_spread import spread_basis
 from server.vision.fitting.fit_covariance import fit_covariance
 from server.vision.fitting.light_field import light_field
+from server.vision.fitting.light_picture import LightPicture, light_around
+from server.vision.fitting.measured_blur import blurred_as_seen
 from server.vision.fitting.robust_step import RobustStep, robust_step
 from server.vision.projection import Array, perturbed
 
@@ -26,11 +29,17 @@ PATIENCE = 5
 """After so many fine steps a fit that still swings a little is good enough: perfectly sharp edges
 snap from pixel to pixel."""
 
+BLUR_LOOKS = 2
+"""So often the blur of a blurred picture is measured, each time at a better pose."""
+
 _NEAR_PX = 2.0
 _CONVERGED_PX = 0.05
 _SETTLED_PX = 0.1
 _PROFILE_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
+
+_FLOWING_MODULES = 0.18
+"""Blur (standard deviation across the edges of one direction) from which on neighbours count."""
 
 _PARTS = 4  # along each side of the code
 _EDGES_OF_A_PART = 8
@@ -107,18 +116,25 @@ def fit_edges(
     Returns:
         The fit, or None where too few edges are visible or the fit does not settle.
     """
-    near = approach(image, camera, edges, T_start, inverted=inverted)
+    picture = light_around(image, camera, T_start, edges)
+    near = approach(picture, camera, edges, T_start, inverted=inverted)
     if near is None:
         return None
-    return finish(image, camera, edges, near, inverted=inverted, moving=moving)
+    return finish(picture, camera, edges, near, inverted=inverted, moving=moving)
 
 
 def approach(
-    image: Image, camera: CameraModel, edges: CodeEdges, T_start: Array, *, inverted: bool = False
+    picture: LightPicture,
+    camera: CameraModel,
+    edges: CodeEdges,
+    T_start: Array,
+    *,
+    inverted: bool = False,
 ) -> Approach | None:
     """Steps with few edges and long profiles, until a step is short.
 
-    Arguments as of ``fit_edges``. Returns None where that leads nowhere.
+    Arguments as of ``fit_edges``, with the light around the label. Returns None where that leads
+    nowhere.
     """
     few = thinned(edges, COARSE_EDGES)
     pose, spread_px = T_start, 0.0
@@ -126,7 +142,7 @@ def approach(
     near: Approach | None = None
     for _ in range(MOST_COARSE_STEPS):
         measured = edge_offsets(
-            image,
+            picture,
             camera,
             few,
             pose,
@@ -147,7 +163,7 @@ def approach(
 
 
 def finish(
-    image: Image,
+    picture: LightPicture,
     camera: CameraModel,
     edges: CodeEdges,
     near: Approach,
@@ -157,20 +173,23 @@ def finish(
 ) -> EdgeFit | None:
     """Steps with all edges, profiles as short as the blur allows, and the light taken out.
 
-    Arguments as of ``fit_edges``. Returns None where the fit does not settle.
+    Arguments as of ``fit_edges``, with the light around the label. Returns None where the fit does
+    not settle.
     """
     pose, basis = near.T_camera_label, spread_basis(edges)
     spread = np.zeros(basis.shape[1])
     spread[0] = near.spread_px
     row_way = np.zeros(2)
     # Longer profiles than the blur only collect noise.
-    reach_px = max(_PROFILE_WIDTHS * near.measured.width_px, _LEAST_REACH_PX)
+    reach_px = max(_PROFILE_WIDTHS * near.measured.width_px(), _LEAST_REACH_PX)
     light = light_field(near.few, near.measured)
     levels = None if light is None else light.levels(edges)
+    expected: BlurredCode | None = None
+    looks = 0 if light is not None and _neighbours_flow_in(near, camera) else BLUR_LOOKS
     for number in range(MOST_FINE_STEPS):
         spread_px = basis @ spread
         measured = edge_offsets(
-            image,
+            picture,
             camera,
             edges,
             pose,
@@ -179,6 +198,7 @@ def finish(
             reach_px=reach_px,
             levels=levels,
             row_way=row_way,
+            expected=expected,
         )
         others = np.column_stack((basis, measured.by_row_way)) if moving else basis
         solved = robust_step(measured, spread_px, others, edges.upright)
@@ -189,8 +209,24 @@ def finish(
         if moving:
             row_way = row_way + solved.step[-2:]
         if solved.moved_px < (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
-            return _result(solved, pose, float(spread[0]), edges)
+            if looks < BLUR_LOOKS:
+                light = light_field(edges, measured)
+            if looks == BLUR_LOOKS or light is None:
+                return _result(solved, pose, float(spread[0]), edges)
+            looks += 1
+            levels = light.levels(edges)
+            expected = blurred_as_seen(
+                picture, camera, edges, pose, light, inverted=inverted, row_way=row_way
+            )
     return None
+
+
+def _neighbours_flow_in(near: Approach, camera: CameraModel) -> bool:
+    """Whether blur or motion carry the light of one module's edges to those of the next."""
+    module_px = camera.fx * near.few.module_mm / float(near.T_camera_label[2, 3])
+    upright = near.few.upright
+    widest_px = max(near.measured.width_px(upright), near.measured.width_px(~upright))
+    return widest_px > _FLOWING_MODULES * module_px
 
 
 def _result(solved: RobustStep, pose: Array, spread_px: float, edges: CodeEdges) -> EdgeFit:

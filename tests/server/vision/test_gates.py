@@ -147,7 +147,7 @@ def test_a_tilt_that_could_be_the_opposite_is_rejected() -> None:
     edges = code_edges(MODULES, SIZE_MM)
     outcomes = []
     for seed in range(16):
-        noisy = Shot(blur_px=0.8, full_well=12.0, read_noise=0.05)
+        noisy = Shot(blur_px=0.8, full_well=3.0, read_noise=0.1)
         image = shot_of(LABEL, far, shot=noisy, seed=seed)
         try:
             fit = fit_best(image, CAMERA, edges, [opposite, far])
@@ -157,8 +157,7 @@ def test_a_tilt_that_could_be_the_opposite_is_rejected() -> None:
             outcomes.append("failed")
         else:
             turn = np.degrees(pose_error(fit.T_camera_label, far)[0])
-            sigma = np.degrees(np.sqrt(fit.covariance[0, 0]))
-            outcomes.append("right" if abs(turn) < 4 * sigma else "wrong")
+            outcomes.append("right" if abs(turn) < 5.0 else "wrong")  # the opposite is 10 off
     assert "ambiguous" in outcomes, outcomes
     assert "wrong" not in outcomes, outcomes
 

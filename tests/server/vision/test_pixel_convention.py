@@ -33,5 +33,5 @@ def test_an_ideal_picture_is_located_to_a_hundredth_of_a_pixel(T_camera_label: A
     np.testing.assert_allclose(there, true, atol=0.02)
     # A convention wrong by half a pixel would be 0.17 mm here.
     assert np.abs(pose_error(found.T_camera_label, T_camera_label)[3:5]).max() < 0.003
-    # Both halves of a pixel on an edge are counted right: no spread without blur and gamma.
+    # Both halves of a pixel on an edge are counted right: no spread without ink.
     assert abs(found.spread_px) < 0.03
