@@ -8,14 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.vision.fitting.blurred_code import BlurredCode
+from server.vision.fitting.bending import coherent_rest_px
 from server.vision.fitting.code_edges import CodeEdges, thinned
 from server.vision.fitting.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
-from server.vision.fitting.edge_spread import spread_basis
+from server.vision.fitting.fine_fit import FineFit
 from server.vision.fitting.fit_covariance import fit_covariance
-from server.vision.fitting.light_field import light_field
 from server.vision.fitting.light_picture import LightPicture, light_around
-from server.vision.fitting.measured_blur import blurred_as_seen
 from server.vision.fitting.robust_step import RobustStep, robust_step
 from server.vision.projection import Array, perturbed
 
@@ -24,26 +22,14 @@ COARSE_EDGES = 200
 COARSE_REACH_PX = 40.0
 """The start may be off by half a module; those of a tag nearby are large."""
 MOST_COARSE_STEPS = 5
-MOST_FINE_STEPS = 8
+MOST_FINE_STEPS = 12
 PATIENCE = 5
 """After so many fine steps a fit that still swings a little is good enough: perfectly sharp edges
 snap from pixel to pixel."""
 
-BLUR_LOOKS = 2
-"""So often the blur of a blurred picture is measured, each time at a better pose."""
-
 _NEAR_PX = 2.0
 _CONVERGED_PX = 0.05
 _SETTLED_PX = 0.1
-_PROFILE_WIDTHS = 3.0
-_LEAST_REACH_PX = 2.0
-
-_FLOWING_MODULES = 0.18
-"""Blur (standard deviation across the edges of one direction) from which on neighbours count."""
-
-_PARTS = 4  # along each side of the code
-_EDGES_OF_A_PART = 8
-_MOST_BOW_PX = 2.0
 
 Image = NDArray[np.uint8]
 
@@ -60,6 +46,7 @@ class EdgeFit:
         edge_count: Number of edges looked at.
         spread_px: Outward shift of black areas in the code's middle by ink, blur and gamma [px].
         bow_px: Largest mean distance of the edges in any part of the code from the fit [px].
+        bend_px: Largest shift of an edge because the label is bent, as the fit has it [px].
     """
 
     T_camera_label: Array
@@ -69,6 +56,7 @@ class EdgeFit:
     edge_count: int
     spread_px: float
     bow_px: float
+    bend_px: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -151,13 +139,13 @@ def approach(
             reach_px=COARSE_REACH_PX,
         )
         solved = robust_step(measured, spread_px * alike[:, 0], alike, few.upright)
-        if solved is None or not solved.moved_px < COARSE_REACH_PX:
+        if solved is None or not solved.moved_px() < COARSE_REACH_PX:
             return None
         pose, spread_px = perturbed(pose, solved.step[:6]), spread_px + float(solved.step[6])
         if pose[2, 3] <= 0:
             return None
         near = Approach(pose, solved.rms_px, spread_px, few, measured)
-        if solved.moved_px < _NEAR_PX:
+        if solved.moved_px() < _NEAR_PX:
             break
     return near
 
@@ -176,87 +164,41 @@ def finish(
     Arguments as of ``fit_edges``, with the light around the label. Returns None where the fit does
     not settle.
     """
-    pose, basis = near.T_camera_label, spread_basis(edges)
-    spread = np.zeros(basis.shape[1])
-    spread[0] = near.spread_px
-    row_way = np.zeros(2)
-    # Longer profiles than the blur only collect noise.
-    reach_px = max(_PROFILE_WIDTHS * near.measured.width_px(), _LEAST_REACH_PX)
-    light = light_field(near.few, near.measured)
-    levels = None if light is None else light.levels(edges)
-    expected: BlurredCode | None = None
-    looks = 0 if light is not None and _neighbours_flow_in(near, camera) else BLUR_LOOKS
+    fine = FineFit(
+        picture,
+        camera,
+        edges,
+        near.T_camera_label,
+        spread_px=near.spread_px,
+        few=near.few,
+        measured=near.measured,
+        inverted=inverted,
+        moving=moving,
+    )
     for number in range(MOST_FINE_STEPS):
-        spread_px = basis @ spread
-        measured = edge_offsets(
-            picture,
-            camera,
-            edges,
-            pose,
-            inverted=inverted,
-            spread_px=spread_px,
-            reach_px=reach_px,
-            levels=levels,
-            row_way=row_way,
-            expected=expected,
-        )
-        others = np.column_stack((basis, measured.by_row_way)) if moving else basis
-        solved = robust_step(measured, spread_px, others, edges.upright)
-        if solved is None or not solved.moved_px < MOST_REACH_PX:
+        stepped = fine.step()
+        if stepped is None:
             return None
-        pose = perturbed(pose, solved.step[:6])
-        spread = spread + solved.step[6 : 6 + len(spread)]
-        if moving:
-            row_way = row_way + solved.step[-2:]
-        if solved.moved_px < (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
-            if looks < BLUR_LOOKS:
-                light = light_field(edges, measured)
-            if looks == BLUR_LOOKS or light is None:
-                return _result(solved, pose, float(spread[0]), edges)
-            looks += 1
-            levels = light.levels(edges)
-            expected = blurred_as_seen(
-                picture, camera, edges, pose, light, inverted=inverted, row_way=row_way
-            )
+        solved, moved_px = stepped
+        if not moved_px < MOST_REACH_PX:
+            return None
+        if moved_px > (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
+            continue
+        if not fine.learn(solved):
+            return _result(solved, fine, edges)
     return None
 
 
-def _neighbours_flow_in(near: Approach, camera: CameraModel) -> bool:
-    """Whether blur or motion carry the light of one module's edges to those of the next."""
-    module_px = camera.fx * near.few.module_mm / float(near.T_camera_label[2, 3])
-    upright = near.few.upright
-    widest_px = max(near.measured.width_px(upright), near.measured.width_px(~upright))
-    return widest_px > _FLOWING_MODULES * module_px
-
-
-def _result(solved: RobustStep, pose: Array, spread_px: float, edges: CodeEdges) -> EdgeFit:
+def _result(solved: RobustStep, fine: FineFit, edges: CodeEdges) -> EdgeFit:
     """Pose, covariance and what the gates want to know of the last step."""
     edge_count = len(edges.points_mm)
     return EdgeFit(
-        T_camera_label=pose,
-        covariance=fit_covariance(solved, edges, float(pose[2, 3])),
+        T_camera_label=fine.pose,
+        covariance=fit_covariance(solved, edges, float(fine.pose[2, 3])),
         rms_px=solved.rms_px,
         inlier_share=float(np.sum(solved.weights > 0.1)) / edge_count,
         edge_count=edge_count,
-        spread_px=spread_px,
-        bow_px=_bow_px(solved, edges),
+        spread_px=fine.spread_px,
+        bow_px=coherent_rest_px(solved, edges),
+        bend_px=fine.bend_px,
     )
-
-
-def _bow_px(solved: RobustStep, edges: CodeEdges) -> float:
-    """Coherent residuals: noise and dirt differ from edge to edge, a bent label does not.
-
-    Residuals are those in the picture's directions, so edges of opposite polarity count with
-    opposite signs; parts with few edges do not count.
-    """
-    place = edges.points_mm[solved.used]
-    cell = np.floor((place / np.abs(edges.points_mm).max() + 1) * (_PARTS / 2))
-    cell = np.clip(cell, 0, _PARTS - 1).astype(np.intp)
-    upright = edges.upright[solved.used]
-    part = (cell[:, 0] * _PARTS + cell[:, 1]) * 2 + upright
-    sign = edges.normals[solved.used].sum(axis=1)
-    shift = np.clip(solved.residuals, -_MOST_BOW_PX, _MOST_BOW_PX) * sign
-    counts = np.bincount(part, minlength=2 * _PARTS**2)
-    sums = np.bincount(part, weights=shift, minlength=2 * _PARTS**2)
-    enough = counts >= _EDGES_OF_A_PART
-    return float(np.max(np.abs(sums[enough] / counts[enough]), initial=0.0))

@@ -41,10 +41,10 @@ class RobustStep:
     used: NDArray[np.bool_]
     efficiency: float
 
-    @property
-    def moved_px(self) -> float:
-        """How far the step moves the farthest edge."""
-        return float(np.max(np.abs(self.design @ self.step)))
+    def moved_px(self, unknowns: int | None = None) -> float:
+        """How far the first so many unknowns of the step (or all) move the farthest edge."""
+        first = slice(unknowns)
+        return float(np.max(np.abs(self.design[:, first] @ self.step[first])))
 
     @property
     def rms_px(self) -> float:
