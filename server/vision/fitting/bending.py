@@ -29,6 +29,8 @@ picture of a hundred, which costs it some certainty and nothing else."""
 _BOW = 3  # unknowns
 _CREASES = (-0.5, 0.0, 0.5, 1.0)  # along a diagonal: 0 is the code's middle, 2 its corner
 
+_RIDGE = 1e-9
+
 _PARTS = 4  # along each side of the code
 _EDGES_OF_A_PART = 8
 _MOST_BEND_PX = 2.0
@@ -56,22 +58,25 @@ def significant_bends(
         return []
     # A height shifts a point along the label's z: tau's columns are those of a shift.
     by_height = measured.by_pose[:, 3:] @ T_camera_label[:3, 2]
-    bends = by_height[:, None] * _heights(edges)
-    columns = (bends * measured.gain[:, None])[solved.used]
+    bends = by_height * _heights(edges)
+    columns = (bends * measured.gain)[:, solved.used]
     weights = solved.weights / solved.scale_px**2
     weighted = (solved.design * weights[:, None]).T
-    columns -= solved.design @ np.linalg.solve(weighted @ solved.design, weighted @ columns)
-    scores = columns * (weights * solved.residuals)[:, None]
-    totals, scatter = scores.sum(axis=0), scores.T @ scores
-    last, each = scores.shape[1], len(_CREASES)
+    known = np.linalg.solve(weighted @ solved.design, weighted @ columns.T)
+    columns -= known.T @ solved.design.T
+    scores = columns * (weights * solved.residuals)
+    totals, scatter = scores.sum(axis=1), scores @ scores.T
+    last, each = len(scores), len(_CREASES)
     kinds = [slice(0, _BOW), *(slice(at, at + each) for at in range(_BOW, last, each))]
-    shown = [totals[kind] @ np.linalg.pinv(scatter[kind, kind]) @ totals[kind] for kind in kinds]
-    return [bends[:, kind] for kind, sign in zip(kinds, shown, strict=True) if sign > SIGNIFICANT]
+    # Near head-on and far away some unknowns are hardly seen: the ridge keeps them out.
+    scatter[np.diag_indices_from(scatter)] *= 1 + _RIDGE
+    shown = [totals[kind] @ np.linalg.solve(scatter[kind, kind], totals[kind]) for kind in kinds]
+    return [bends[kind].T for kind, sign in zip(kinds, shown, strict=True) if sign > SIGNIFICANT]
 
 
 @lru_cache(maxsize=8)
 def _heights(edges: CodeEdges) -> Array:
-    """Heights of unit bends, shape (n, 19) [mm]: three of the bow, four of each corner.
+    """Heights of unit bends, shape (19, n) [mm]: three of the bow, four of each corner.
 
     Paper that is clamped along a crease bends quadratically beyond it; four creases together
     come near to any other.
@@ -82,7 +87,7 @@ def _heights(edges: CodeEdges) -> Array:
         for down in (-1, 1):
             along = right * x + down * y
             columns += [np.maximum(along - crease, 0.0) ** 2 for crease in _CREASES]
-    heights = np.column_stack(columns)
+    heights = np.stack(columns)
     heights.flags.writeable = False  # it is shared through the cache
     return heights
 

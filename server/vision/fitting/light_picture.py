@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,7 +18,7 @@ from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.start_pose import corners_mm
 from server.vision.projection import Array, project
 
-_MARGIN_SHARE = 0.3  # of the label's side in the picture
+_MARGIN_SHARE = 0.12  # of the label's side in the picture: the quiet zone
 _MARGIN_PX = 24.0
 
 
@@ -57,7 +58,8 @@ def light_around(
         left, top = np.clip(np.floor(low - margin), 0, (width - 1, height - 1)).astype(int)
         right, bottom = np.clip(np.ceil(high + margin), 1, (width, height)).astype(int)
     part = image[top : max(bottom, top + 1), left : max(right, left + 1)]
-    return LightPicture(np.take(_LIGHT, part), (int(left), int(top)), (height - 1) / 2)
+    light = np.asarray(cv2.LUT(part, _LIGHT), dtype=np.float32)
+    return LightPicture(light, (int(left), int(top)), (height - 1) / 2)
 
 
 def _tone_curve() -> NDArray[np.float32]:
