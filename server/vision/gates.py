@@ -31,7 +31,8 @@ class Gates:
     Attributes:
         rms_modules: Largest root mean square edge distance, in modules ...
         rms_px: ... or in pixels, whichever is more: small codes are drawn by few pixels.
-        bow_modules: The same for the largest mean distance in any part of the code, which tells a
+        bend_modules: Largest shift of an edge by a bend that the fit found, in modules.
+        bow_modules: Largest mean distance in any part of the code, which tells a strangely
             bent or pasted-over label from a noisy picture, in modules ...
         bow_rms: ... or times the root mean square: noise makes some part look bent, too.
         inlier_share: Smallest share of edges that agree.
@@ -51,6 +52,7 @@ class Gates:
 
     rms_modules: float = 0.06
     rms_px: float = 0.35
+    bend_modules: float = 0.12
     bow_modules: float = 0.06
     bow_rms: float = 1.5
     inlier_share: float = 0.82
@@ -125,6 +127,12 @@ class Gates:
                 f"at most {most_bow_px:.2f} px are allowed."
             )
             raise EdgesDoNotFitError(detail, bow_px=round(fit.bow_px, 3))
+        if not fit.bend_px <= self.bend_modules * module_px:
+            detail = (
+                f"The code is bent: a part of it is {fit.bend_px:.2f} px beside where a flat label "
+                f"has it; at most {self.bend_modules * module_px:.2f} px are allowed."
+            )
+            raise EdgesDoNotFitError(detail, bend_px=round(fit.bend_px, 3))
         if fit.inlier_share < self.inlier_share:
             detail = f"Only {fit.inlier_share:.0%} of the edges agree with the fit."
             raise EdgesDisagreeError(detail, inlier_share=round(fit.inlier_share, 3))

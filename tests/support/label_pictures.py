@@ -35,12 +35,17 @@ class Placed:
         label: What is printed.
         T_camera_label: Where it is, shape (4, 4) [mm].
         lift_mm: How far its top left corner of the paper has come loose, towards the camera.
+        crease: From where on along the diagonal: 0 is the middle, 2 the corner of the paper.
+        bow_mm: How far its left and right borders stand off, towards the camera; its middle does
+            not.
         luminous: Light of its own on top of what it reflects, as a telephone's screen has.
     """
 
     label: Print
     T_camera_label: Array
     lift_mm: float = 0.0
+    crease: float = 0.4
+    bow_mm: float = 0.0
     luminous: float = 0.0
 
 
@@ -128,12 +133,12 @@ def _draw(canvas: Canvas, camera: CameraModel, item: Placed, shot: Shot) -> None
 
 
 def _hits(rays: NDArray[np.float32], item: Placed) -> tuple[Canvas, Canvas]:
-    """Label coordinates x, y [mm] where rays meet the paper, bent where a corner is loose."""
+    """Label coordinates x, y [mm] where rays meet the paper, bent where the paper is."""
     pose = item.T_camera_label
     to_plane = np.linalg.inv(pose[:3, (0, 1, 3)])
     flat = np.asarray(cv2.perspectiveTransform(rays, to_plane), dtype=np.float32)
     x, y = flat[..., 0], flat[..., 1]
-    if not item.lift_mm:
+    if not (item.lift_mm or item.bow_mm):
         return x, y
     # Direction of each ray in the label frame, per millimetre of depth.
     ways = cv2.transform(rays, pose[:3, :2].T)
@@ -143,8 +148,9 @@ def _hits(rays: NDArray[np.float32], item: Placed) -> tuple[Canvas, Canvas]:
     bent_x, bent_y = x, y
     for _ in range(3):
         # The paper bends like a clamped strip beyond the diagonal: quadratically.
-        loose = np.clip((-(bent_x + bent_y) / half - 0.4) / 1.6, 0, 1)
+        loose = np.clip((-(bent_x + bent_y) / half - item.crease) / (2 - item.crease), 0, 1)
         height = np.float32(item.lift_mm) * loose * loose
+        height += np.float32(item.bow_mm) * (bent_x / half) ** 2
         bent_x, bent_y = x - height * slope_x, y - height * slope_y
     return np.asarray(bent_x, dtype=np.float32), np.asarray(bent_y, dtype=np.float32)
 
@@ -160,7 +166,7 @@ def _box(camera: CameraModel, item: Placed, margin: int) -> tuple[int, int, int,
     still = np.zeros(3)
     pixels, _ = cv2.projectPoints(in_camera, still, still, camera.matrix, camera.distortion)
     u, v = np.asarray(pixels).reshape(-1, 2).T
-    slack = margin + 2 + (0.1 * (u.max() - u.min()) if item.lift_mm else 0)
+    slack = margin + 2 + (0.1 * (u.max() - u.min()) if item.lift_mm or item.bow_mm else 0)
     left, right = max(int(u.min() - slack), 0), min(int(u.max() + slack) + 1, camera.width)
     top, bottom = max(int(v.min() - slack), 0), min(int(v.max() + slack) + 1, camera.height)
     return (left, top, right, bottom) if left < right and top < bottom else None

@@ -32,6 +32,7 @@ class CodeEdges:
         module_mm: Side of one module.
         length_mm: Length of each edge.
         side: Number of the module side that each edge is a piece of, shape (n,).
+        modules: The code itself, True is black, shape (m, m).
     """
 
     points_mm: NDArray[np.float64]
@@ -40,6 +41,7 @@ class CodeEdges:
     module_mm: float
     length_mm: float
     side: NDArray[np.intp]
+    modules: NDArray[np.bool_]
 
     @property
     def upright(self) -> NDArray[np.bool_]:
@@ -79,6 +81,7 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     """The same for a matrix that can be hashed: a camera sees one label again and again."""
     bits = np.unpackbits(np.frombuffer(packed, dtype=np.uint8), count=count * count)
     modules = bits.astype(np.bool_).reshape(count, count)
+    modules.flags.writeable = False  # it is shared through the cache
     module_mm = label_size_mm / count
     across = _sides(modules)
     down = _sides(modules.T)
@@ -96,7 +99,7 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     points = (points[:, None, :] + tangents[:, None, :] * along[:, None]).reshape(-1, 2)
     normals, tangents = normals.repeat(pieces, axis=0), tangents.repeat(pieces, axis=0)
     side = np.arange(len(points)) // pieces
-    edges = CodeEdges(points, normals, tangents, module_mm, length_mm, side)
+    edges = CodeEdges(points, normals, tangents, module_mm, length_mm, side, modules)
     return thinned(edges, MOST_EDGES)
 
 

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
+from server.vision.fitting.bending import coherent_rest_px
 from server.vision.fitting.code_edges import CodeEdges, thinned
 from server.vision.fitting.edge_profiles import MOST_REACH_PX, EdgeOffsets, edge_offsets
-from server.vision.fitting.edge_spread import spread_basis
+from server.vision.fitting.fine_fit import FineFit
 from server.vision.fitting.fit_covariance import fit_covariance
-from server.vision.fitting.light_field import light_field
+from server.vision.fitting.light_picture import LightPicture, light_around
 from server.vision.fitting.robust_step import RobustStep, robust_step
 from server.vision.projection import Array, perturbed
 
@@ -21,7 +22,7 @@ COARSE_EDGES = 200
 COARSE_REACH_PX = 40.0
 """The start may be off by half a module; those of a tag nearby are large."""
 MOST_COARSE_STEPS = 5
-MOST_FINE_STEPS = 8
+MOST_FINE_STEPS = 12
 PATIENCE = 5
 """After so many fine steps a fit that still swings a little is good enough: perfectly sharp edges
 snap from pixel to pixel."""
@@ -29,12 +30,6 @@ snap from pixel to pixel."""
 _NEAR_PX = 2.0
 _CONVERGED_PX = 0.05
 _SETTLED_PX = 0.1
-_PROFILE_WIDTHS = 3.0
-_LEAST_REACH_PX = 2.0
-
-_PARTS = 4  # along each side of the code
-_EDGES_OF_A_PART = 8
-_MOST_BOW_PX = 2.0
 
 Image = NDArray[np.uint8]
 
@@ -51,6 +46,7 @@ class EdgeFit:
         edge_count: Number of edges looked at.
         spread_px: Outward shift of black areas in the code's middle by ink, blur and gamma [px].
         bow_px: Largest mean distance of the edges in any part of the code from the fit [px].
+        bend_px: Largest shift of an edge because the label is bent, as the fit has it [px].
     """
 
     T_camera_label: Array
@@ -60,6 +56,7 @@ class EdgeFit:
     edge_count: int
     spread_px: float
     bow_px: float
+    bend_px: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,18 +104,25 @@ def fit_edges(
     Returns:
         The fit, or None where too few edges are visible or the fit does not settle.
     """
-    near = approach(image, camera, edges, T_start, inverted=inverted)
+    picture = light_around(image, camera, T_start, edges)
+    near = approach(picture, camera, edges, T_start, inverted=inverted)
     if near is None:
         return None
-    return finish(image, camera, edges, near, inverted=inverted, moving=moving)
+    return finish(picture, camera, edges, near, inverted=inverted, moving=moving)
 
 
 def approach(
-    image: Image, camera: CameraModel, edges: CodeEdges, T_start: Array, *, inverted: bool = False
+    picture: LightPicture,
+    camera: CameraModel,
+    edges: CodeEdges,
+    T_start: Array,
+    *,
+    inverted: bool = False,
 ) -> Approach | None:
     """Steps with few edges and long profiles, until a step is short.
 
-    Arguments as of ``fit_edges``. Returns None where that leads nowhere.
+    Arguments as of ``fit_edges``, with the light around the label. Returns None where that leads
+    nowhere.
     """
     few = thinned(edges, COARSE_EDGES)
     pose, spread_px = T_start, 0.0
@@ -126,7 +130,7 @@ def approach(
     near: Approach | None = None
     for _ in range(MOST_COARSE_STEPS):
         measured = edge_offsets(
-            image,
+            picture,
             camera,
             few,
             pose,
@@ -135,19 +139,19 @@ def approach(
             reach_px=COARSE_REACH_PX,
         )
         solved = robust_step(measured, spread_px * alike[:, 0], alike, few.upright)
-        if solved is None or not solved.moved_px < COARSE_REACH_PX:
+        if solved is None or not solved.moved_px() < COARSE_REACH_PX:
             return None
         pose, spread_px = perturbed(pose, solved.step[:6]), spread_px + float(solved.step[6])
         if pose[2, 3] <= 0:
             return None
         near = Approach(pose, solved.rms_px, spread_px, few, measured)
-        if solved.moved_px < _NEAR_PX:
+        if solved.moved_px() < _NEAR_PX:
             break
     return near
 
 
 def finish(
-    image: Image,
+    picture: LightPicture,
     camera: CameraModel,
     edges: CodeEdges,
     near: Approach,
@@ -157,70 +161,44 @@ def finish(
 ) -> EdgeFit | None:
     """Steps with all edges, profiles as short as the blur allows, and the light taken out.
 
-    Arguments as of ``fit_edges``. Returns None where the fit does not settle.
+    Arguments as of ``fit_edges``, with the light around the label. Returns None where the fit does
+    not settle.
     """
-    pose, basis = near.T_camera_label, spread_basis(edges)
-    spread = np.zeros(basis.shape[1])
-    spread[0] = near.spread_px
-    row_way = np.zeros(2)
-    # Longer profiles than the blur only collect noise.
-    reach_px = max(_PROFILE_WIDTHS * near.measured.width_px, _LEAST_REACH_PX)
-    light = light_field(near.few, near.measured)
-    levels = None if light is None else light.levels(edges)
+    fine = FineFit(
+        picture,
+        camera,
+        edges,
+        near.T_camera_label,
+        spread_px=near.spread_px,
+        few=near.few,
+        measured=near.measured,
+        inverted=inverted,
+        moving=moving,
+    )
     for number in range(MOST_FINE_STEPS):
-        spread_px = basis @ spread
-        measured = edge_offsets(
-            image,
-            camera,
-            edges,
-            pose,
-            inverted=inverted,
-            spread_px=spread_px,
-            reach_px=reach_px,
-            levels=levels,
-            row_way=row_way,
-        )
-        others = np.column_stack((basis, measured.by_row_way)) if moving else basis
-        solved = robust_step(measured, spread_px, others, edges.upright)
-        if solved is None or not solved.moved_px < MOST_REACH_PX:
+        stepped = fine.step()
+        if stepped is None:
             return None
-        pose = perturbed(pose, solved.step[:6])
-        spread = spread + solved.step[6 : 6 + len(spread)]
-        if moving:
-            row_way = row_way + solved.step[-2:]
-        if solved.moved_px < (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
-            return _result(solved, pose, float(spread[0]), edges)
+        solved, moved_px = stepped
+        if not moved_px < MOST_REACH_PX:
+            return None
+        if moved_px > (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
+            continue
+        if not fine.learn(solved):
+            return _result(solved, fine, edges)
     return None
 
 
-def _result(solved: RobustStep, pose: Array, spread_px: float, edges: CodeEdges) -> EdgeFit:
+def _result(solved: RobustStep, fine: FineFit, edges: CodeEdges) -> EdgeFit:
     """Pose, covariance and what the gates want to know of the last step."""
     edge_count = len(edges.points_mm)
     return EdgeFit(
-        T_camera_label=pose,
-        covariance=fit_covariance(solved, edges, float(pose[2, 3])),
+        T_camera_label=fine.pose,
+        covariance=fit_covariance(solved, edges, float(fine.pose[2, 3])),
         rms_px=solved.rms_px,
         inlier_share=float(np.sum(solved.weights > 0.1)) / edge_count,
         edge_count=edge_count,
-        spread_px=spread_px,
-        bow_px=_bow_px(solved, edges),
+        spread_px=fine.spread_px,
+        bow_px=coherent_rest_px(solved, edges),
+        bend_px=fine.bend_px,
     )
-
-
-def _bow_px(solved: RobustStep, edges: CodeEdges) -> float:
-    """Coherent residuals: noise and dirt differ from edge to edge, a bent label does not.
-
-    Residuals are those in the picture's directions, so edges of opposite polarity count with
-    opposite signs; parts with few edges do not count.
-    """
-    place = edges.points_mm[solved.used]
-    cell = np.floor((place / np.abs(edges.points_mm).max() + 1) * (_PARTS / 2))
-    cell = np.clip(cell, 0, _PARTS - 1).astype(np.intp)
-    upright = edges.upright[solved.used]
-    part = (cell[:, 0] * _PARTS + cell[:, 1]) * 2 + upright
-    sign = edges.normals[solved.used].sum(axis=1)
-    shift = np.clip(solved.residuals, -_MOST_BOW_PX, _MOST_BOW_PX) * sign
-    counts = np.bincount(part, minlength=2 * _PARTS**2)
-    sums = np.bincount(part, weights=shift, minlength=2 * _PARTS**2)
-    enough = counts >= _EDGES_OF_A_PART
-    return float(np.max(np.abs(sums[enough] / counts[enough]), initial=0.0))

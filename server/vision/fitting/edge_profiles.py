@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
+from server.vision.fitting.blurred_code import BlurredCode
 from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.light_picture import LightPicture
 from server.vision.fitting.median import median
 from server.vision.projection import Array, project
 
@@ -58,17 +60,18 @@ class EdgeOffsets(NamedTuple):
     black: Array
     white: Array
 
-    @property
-    def width_px(self) -> float:
+    def width_px(self, among: NDArray[np.bool_] | None = None) -> float:
         """Standard deviation of the typical edge's blur [px]; 0 if no edge is seen."""
         usable = self.visible & (self.contrast > 0)
+        if among is not None:
+            usable &= among
         if not np.any(usable):
             return 0.0
         return math.sqrt(max(median(self.variance_px2[usable]), 0.0))
 
 
 def edge_offsets(
-    image: NDArray[np.uint8],
+    picture: LightPicture,
     camera: CameraModel,
     edges: CodeEdges,
     T_camera_label: Array,
@@ -78,11 +81,12 @@ def edge_offsets(
     reach_px: float = MOST_REACH_PX,
     levels: ProfileLevels | None = None,
     row_way: Array | None = None,
+    expected: BlurredCode | None = None,
 ) -> EdgeOffsets:
-    """Sample the grey values across every edge and take the centroid of their gradient.
+    """Sample the light across every edge and take the centroid of their gradient.
 
     Args:
-        image: Grey values, shape (height, width).
+        picture: The light around the label.
         camera: Intrinsics and distortion.
         edges: Edges in label coordinates.
         T_camera_label: Predicted pose, shape (4, 4) [mm].
@@ -93,9 +97,10 @@ def edge_offsets(
         levels: Local black and contrast to measure against; None takes the grey values.
         row_way: How far the label moves in the picture from one row's exposure to the next,
             shape (2,) [px]; the pose is that of the middle row.
+        expected: The blurred code, whose own centroids are taken away.
     """
     seen = project(camera, T_camera_label, edges.points_mm)
-    rows = seen.pixels[:, 1:] - (image.shape[0] - 1) / 2
+    rows = seen.pixels[:, 1:] - picture.middle_row
     pixels = seen.pixels if row_way is None else seen.pixels + rows * row_way
     in_plane = seen.by_point @ T_camera_label[:3, :2]  # pixel by label x and y, (n, 2, 2)
     to_white = np.einsum("nij,nj->ni", in_plane, edges.normals)
@@ -112,13 +117,13 @@ def edge_offsets(
     # Steps of a pixel, but of half a pixel across the short profiles of sharp edges.
     half_steps = min(int(np.ceil(max(longest, min(2 * longest, 6.0)))), _MOST_HALF_STEPS)
     steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
-    middle = pixels + normal * np.reshape(spread_px, (-1, 1))
+    middle = pixels - picture.left_top_px + normal * np.reshape(spread_px, (-1, 1))
     forward = normal * reach[:, None]
     beside = along * edges.length_mm
     extent = np.abs(forward) + np.abs(beside) / 3
-    last = (image.shape[1] - 1, image.shape[0] - 1)
+    last = (picture.light.shape[1] - 1, picture.light.shape[0] - 1)
     visible = np.all((middle >= extent) & (middle + extent <= last), axis=1)
-    grey = _profiles(image, middle, beside, forward, steps)
+    grey = _profiles(picture.light, middle, beside, forward, steps)
     if inverted:
         grey = 255 - grey
     black, white = grey[:, 0].astype(np.float64), grey[:, -1].astype(np.float64)
@@ -131,9 +136,12 @@ def edge_offsets(
     safe = np.where(contrast > 0, contrast, 1.0)
     moments = gradient @ np.column_stack((middles, middles**2))
     centroid = moments[:, 0] / safe * reach
+    variance = moments[:, 1] / safe * reach**2 - centroid**2
+    if expected is not None:
+        forward_mm = np.einsum("nij,nj->ni", np.linalg.inv(in_plane), forward)
+        centroid = centroid - _expected_centroid(expected, edges, forward_mm, steps) * reach
     offset = np.clip(centroid, -reach, reach) + spread_px
     offset[~visible | (contrast <= 0)] = 0.0
-    variance = moments[:, 1] / safe * reach**2 - centroid**2
     by_pose = seen.by_pose_along(normal)
     gain = _gain(gradient, moments[:, 0] / safe, safe, half_steps)
     return EdgeOffsets(
@@ -147,6 +155,22 @@ def edge_offsets(
         black=black,
         white=white,
     )
+
+
+def _expected_centroid(
+    expected: BlurredCode, edges: CodeEdges, forward_mm: Array, steps: NDArray[np.float32]
+) -> Array:
+    """Centroid of the same profiles of the blurred code on -1..1, shape (n,)."""
+    count = len(edges.points_mm)
+    beside = edges.tangents[:, None, None, :] * edges.length_mm * _LINES[:, None, None]
+    across = forward_mm[:, None, None, :] * steps[:, None]
+    places = edges.points_mm[:, None, None, :] + beside + across
+    white = expected.at(places.reshape(count, -1, 2)).reshape(count, len(_LINES), -1).mean(axis=1)
+    gradient = white[:, 1:] - white[:, :-1]
+    contrast = gradient.sum(axis=1)
+    middles = (steps[:-1] + steps[1:]) / 2
+    safe = np.where(contrast > 0, contrast, np.inf)
+    return np.asarray(np.clip(gradient @ middles / safe, -1, 1), dtype=np.float64)
 
 
 def _gain(
@@ -183,16 +207,13 @@ def _levelled(
 
 
 def _profiles(
-    image: NDArray[np.uint8],
+    light: NDArray[np.float32],
     middle: Array,
     beside: Array,
     forward: Array,
     steps: NDArray[np.float32],
 ) -> NDArray[np.float32]:
-    """Grey values along each edge's normal, the mean of a few lines side by side, (n, steps).
-
-    Each value is rounded to whole grey values, which is small beside the noise of the sensor.
-    """
+    """Light along each edge's normal, the mean of a few lines side by side, (n, steps)."""
     count = len(middle)
     maps = []
     for axis in (0, 1):
@@ -200,8 +221,8 @@ def _profiles(
         lines = lines + beside[:, axis, None].astype(np.float32) * _LINES
         across = forward[:, axis, None].astype(np.float32) * steps
         maps.append((lines[:, :, None] + across[:, None, :]).reshape(count, -1))
-    grey = cv2.remap(image, maps[0], maps[1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    lines = np.asarray(grey).reshape(count, len(_LINES), len(steps)).astype(np.float32)
+    seen = cv2.remap(light, maps[0], maps[1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    lines = np.asarray(seen, dtype=np.float32).reshape(count, len(_LINES), len(steps))
     total = lines[:, 0] + lines[:, 1]
     total += lines[:, 2]
     total /= 3

@@ -15,7 +15,7 @@ import numpy as np
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.projection import Array
 
-EDGES_FOR_SLOPE, EDGES_FOR_BOW = 120, 300
+EDGES_FOR_SLOPE, EDGES_FOR_BOW = 100, 150
 """With fewer edges the additional unknowns would cost more than they give."""
 
 

@@ -15,12 +15,15 @@ of the pixel grid (measured on rendered pictures)."""
 TILT_FLOOR_RAD = 5e-5
 """The same for the tilt about the picture's axes [rad]."""
 
+_MOST_LEVERAGE = 0.8
+
 
 def fit_covariance(solved: RobustStep, edges: CodeEdges, distance_mm: float) -> Array:
     """Sandwich covariance of an M-estimator (Huber 1981, 7.6), pose part, shape (6, 6).
 
     Pieces of one side of a module share what is wrong with it, so their scores are summed before
-    they are squared (Liang and Zeger 1986).
+    they are squared (Liang and Zeger 1986). The fit makes residuals smaller than the errors, most
+    so where few sides bear much: HC2 of MacKinnon and White (1985) puts that right.
 
     Args:
         solved: The last step.
@@ -30,15 +33,22 @@ def fit_covariance(solved: RobustStep, edges: CodeEdges, distance_mm: float) -> 
     weighted = solved.design / solved.scale_px[:, None]
     inverse = np.linalg.inv(weighted.T @ weighted * solved.efficiency)
     scores = weighted * (solved.weights * solved.residuals / solved.scale_px)[:, None]
+    leverage = _leverages(weighted, solved.weights)
     side = edges.side[solved.used]
     begins = np.flatnonzero(np.diff(side, prepend=-1))
     if len(begins) < len(side):
         scores = np.add.reduceat(scores, begins, axis=0)
-    count, unknowns = scores.shape
-    # Fitted residuals are smaller than true errors, most so where few sides bear many unknowns
-    # (twice the usual correction, as the jackknife has it: MacKinnon and White 1985).
-    middle = scores.T @ scores * (count / max(count - 2 * unknowns, 1))
+        leverage = np.add.reduceat(leverage, begins)
+    # A side that draws the fit towards itself shows too little of its error: divide by 1 - h.
+    free = 1 - np.minimum(leverage, _MOST_LEVERAGE)
+    middle = (scores / free[:, None]).T @ scores
     covariance = np.asarray((inverse @ middle @ inverse)[:6, :6])
     covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2
     covariance[5, 5] += (DEPTH_FLOOR * distance_mm) ** 2
     return covariance
+
+
+def _leverages(weighted: Array, weights: Array) -> Array:
+    """How much of its own error each edge takes out of its residual, shape (n,)."""
+    normal = (weighted * weights[:, None]).T @ weighted
+    return np.asarray(weights * np.sum(weighted @ np.linalg.inv(normal) * weighted, axis=1))

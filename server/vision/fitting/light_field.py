@@ -35,6 +35,13 @@ class LightField:
     white: Array
     half_mm: float
 
+    def at(self, points_mm: Array) -> tuple[Array, Array]:
+        """Black and contrast at label coordinates, shape (n, 2), never without contrast."""
+        basis = _basis(*(points_mm / self.half_mm).T)
+        contrast = basis @ (self.white - self.black)
+        least = _LEAST_CONTRAST * abs(float(contrast.mean()))
+        return basis @ self.black, np.maximum(contrast, least)
+
     def levels(self, edges: CodeEdges) -> ProfileLevels:
         """Black, contrast and their slopes along the normals at every edge."""
         x, y = (edges.points_mm / self.half_mm).T

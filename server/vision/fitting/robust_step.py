@@ -14,6 +14,7 @@ from server.vision.projection import Array
 LEAST_EDGES = 24
 _TUKEY = 4.685  # 95% efficient for normal residuals (Beaton and Tukey 1974)
 _LEAST_CONTRAST = 0.2  # of the median contrast; below it an edge says nothing
+_LEAST_FAINTNESS = 0.7  # no edge counts for much more than the usual ones
 _SMALLEST_SCALE_PX = 0.01
 _REWEIGHTINGS = 2
 
@@ -40,10 +41,10 @@ class RobustStep:
     used: NDArray[np.bool_]
     efficiency: float
 
-    @property
-    def moved_px(self) -> float:
-        """How far the step moves the farthest edge."""
-        return float(np.max(np.abs(self.design @ self.step)))
+    def moved_px(self, unknowns: int | None = None) -> float:
+        """How far the first so many unknowns of the step (or all) move the farthest edge."""
+        first = slice(unknowns)
+        return float(np.max(np.abs(self.design[:, first] @ self.step[first])))
 
     @property
     def rms_px(self) -> float:
@@ -61,7 +62,7 @@ def robust_step(
     can be off by more than its profile, so no outlier can do much harm in the first solution.
 
     Motion blurs the edges of one direction more than those of the other, so each direction has
-    a scale of its own.
+    a scale of its own; within it, edges washed out by their neighbours count less.
 
     Args:
         measured: Edges as the current pose sees them.
@@ -82,6 +83,9 @@ def robust_step(
     columns = np.concatenate((measured.by_pose.T, by_spread.T))[:, used]
     columns *= measured.gain[used]
     design = columns.T
+    # The error of a centroid is that of the light over the contrast.
+    contrast = measured.contrast[used]
+    faintness = np.maximum(median(contrast) / contrast, _LEAST_FAINTNESS)
     directions = [np.flatnonzero(way) for way in (upright[used], ~upright[used])]
     weights, scale_px = np.ones(len(offsets)), np.ones(len(offsets))
     for number in range(_REWEIGHTINGS + 1):
@@ -95,8 +99,8 @@ def robust_step(
             break
         for way in directions:
             if len(way):
-                scale = 1.4826 * median(np.abs(residuals[way]))
-                scale_px[way] = max(scale, _SMALLEST_SCALE_PX)
+                scale = 1.4826 * median(np.abs(residuals[way]) / faintness[way])
+                scale_px[way] = max(scale, _SMALLEST_SCALE_PX) * faintness[way]
         relative2 = (residuals / (_TUKEY * scale_px)) ** 2
         inside = relative2 < 1
         if np.count_nonzero(inside) < LEAST_EDGES:

@@ -16,6 +16,7 @@ from drivers.camera import CameraModel
 from server.vision.errors import AmbiguousTiltError, FitFailedError
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_fit import Approach, EdgeFit, approach, finish
+from server.vision.fitting.light_picture import light_around
 from server.vision.projection import Array, perturbed, rotation_vector
 
 SAME_POSE_RAD = math.radians(1.0)
@@ -50,7 +51,7 @@ def fit_best(
         image: Grey values, shape (height, width).
         camera: Intrinsics and distortion.
         edges: Edges of the code.
-        starts: Start poses, shape (4, 4) each [mm].
+        starts: Start poses, at least one, shape (4, 4) each [mm].
         inverted: The code is white on black.
         moving: Something moves: see ``fit_edges``.
 
@@ -58,9 +59,10 @@ def fit_best(
         FitFailedError: no start leads to a pose.
         AmbiguousTiltError: two poses explain the picture equally well.
     """
+    picture = light_around(image, camera, starts[0], edges)
     near: list[Approach] = []
     for start in starts:
-        came = approach(image, camera, edges, start, inverted=inverted)
+        came = approach(picture, camera, edges, start, inverted=inverted)
         if came is None or any(_is_same(came, other) for other in near):
             continue
         near.append(came)
@@ -69,7 +71,7 @@ def fit_best(
             break
     near.sort(key=lambda came: came.rms_px)
     near = [came for came in near if came.rms_px <= CLEARLY_WORSE * near[0].rms_px]
-    fits = [finish(image, camera, edges, came, inverted=inverted, moving=moving) for came in near]
+    fits = [finish(picture, camera, edges, came, inverted=inverted, moving=moving) for came in near]
     found = sorted((fit for fit in fits if fit is not None), key=lambda fit: fit.rms_px)
     if not found:
         raise FitFailedError("Too few edges are visible, or the fit does not settle.")
@@ -103,7 +105,8 @@ def may_be_opposite(
     opposite = _opposite(pose)
     if _turn_rad(opposite, pose) < SAME_POSE_RAD:
         return False
-    came = approach(image, camera, edges, opposite, inverted=inverted)
+    picture = light_around(image, camera, opposite, edges)
+    came = approach(picture, camera, edges, opposite, inverted=inverted)
     if came is None or _turn_rad(came.T_camera_label, pose) < SAME_POSE_RAD:
         return False
     return came.rms_px < CLEARLY_WORSE * fit.rms_px

@@ -3,8 +3,9 @@
 Run as ``python -m tests.bench.vision.campaign [--frames N] [--first K]``. A pose is wrong when it
 was accepted although it is off by more than 0.5 mm sideways, 1% of the distance or 2 degrees of
 tilt, or when there was nothing to locate. Every frame follows from its number, so a campaign can
-be run in pieces, and a wrong pose be looked at again. A label printed in a wrong size is measured
-against its nominal size times the true scale, because one picture cannot tell the size.
+be run in pieces, and a wrong pose be looked at again. A label in a wrong size (printed, or on a
+telephone) is measured against its nominal size times the true scale, because one picture cannot
+tell the size.
 """
 
 from __future__ import annotations
@@ -92,6 +93,8 @@ KINDS = {
     "corner lifted": Kind(scenes.lifted),
     "curled": Kind(curled),
     "pasted over": Kind(scenes.overpasted),
+    "bowed": Kind(scenes.bowed),
+    "on a telephone": Kind(scenes.on_a_telephone),
     "printed small": Kind(scenes.misprinted),
     "several at once": Kind(ruined),
     "oblique": Kind(oblique),

@@ -64,6 +64,7 @@ DAMAGED = (
     DataSet("damaged", "dirt", WHOLE, spoil=scenes.muddy),
     DataSet("damaged", "partly covered", WHOLE, spoil=scenes.partly_covered),
     DataSet("damaged", "a corner lifted", WHOLE, spoil=scenes.lifted),
+    DataSet("damaged", "bowed", WHOLE, spoil=scenes.bowed),
     DataSet("damaged", "printed 3% small", WHOLE, spoil=scenes.misprinted),
     DataSet("damaged", "other codes in view", WHOLE, spoil=scenes.accompanied),
 )

@@ -42,7 +42,10 @@ class Scene:
         tag: A tag label of the same size that suffered the same.
         pose: T_camera_label, the truth, shape (4, 4) [mm].
         shot: Light, blur and sensor.
-        lift_mm: How far a corner of the paper has come loose.
+        lift_mm: How far a corner of the paper has come loose ...
+        crease: ... from where on, as of ``Placed``.
+        bow_mm: How far two borders of the paper stand off.
+        luminous: Light of its own, of a telephone's screen.
         others: What else hangs there.
     """
 
@@ -51,11 +54,17 @@ class Scene:
     pose: Array
     shot: Shot
     lift_mm: float = 0.0
+    crease: float = 0.4
+    bow_mm: float = 0.0
+    luminous: float = 0.0
     others: tuple[Placed, ...] = field(default=())
 
     def picture(self, camera: CameraModel, seed: tuple[int, ...], *, tag: bool = False) -> Image:
         """Photograph the QR label, or the tag label at the same place in the same way."""
-        own = Placed(self.tag if tag else self.label, self.pose, self.lift_mm)
+        label = self.tag if tag else self.label
+        own = Placed(
+            label, self.pose, self.lift_mm, self.crease, self.bow_mm, luminous=self.luminous
+        )
         return photograph(camera, (*self.others, own), self.shot, np.random.default_rng(seed))
 
 
@@ -177,8 +186,14 @@ def dim(scene: Scene, rng: np.random.Generator) -> Scene:
 
 
 def lifted(scene: Scene, rng: np.random.Generator) -> Scene:
-    """A corner of the paper has come loose by up to 2 mm."""
-    return replace(scene, lift_mm=float(rng.uniform(0.3, 2.0)))
+    """A corner of the paper has come loose by up to 2 mm, along a crease somewhere."""
+    lift_mm, crease = float(rng.uniform(0.1, 2.0)), float(rng.uniform(-0.3, 1.0))
+    return replace(scene, lift_mm=lift_mm, crease=crease)
+
+
+def bowed(scene: Scene, rng: np.random.Generator) -> Scene:
+    """The borders of the paper stand off, or its middle does, by up to a millimetre."""
+    return replace(scene, bow_mm=float(rng.uniform(-1.0, 1.0)))
 
 
 def misprinted(scene: Scene, rng: np.random.Generator) -> Scene:
@@ -186,6 +201,14 @@ def misprinted(scene: Scene, rng: np.random.Generator) -> Scene:
     del rng
     small = [replace(kind, size_mm=0.97 * kind.size_mm) for kind in (scene.label, scene.tag)]
     return replace(scene, label=small[0], tag=small[1])
+
+
+def on_a_telephone(scene: Scene, rng: np.random.Generator) -> Scene:
+    """A photograph of the label on a bright screen, in any size."""
+    scale = float(rng.uniform(0.45, 1.1))
+    shown = [replace(kind, size_mm=scale * kind.size_mm) for kind in (scene.label, scene.tag)]
+    bright = float(rng.uniform(0.05, 0.4))
+    return replace(scene, label=shown[0], tag=shown[1], luminous=bright)
 
 
 def accompanied(scene: Scene, rng: np.random.Generator) -> Scene:

@@ -30,9 +30,10 @@ def shot_of(
     *,
     shot: Shot | None = None,
     lift_mm: float = 0.0,
+    bow_mm: float = 0.0,
     others: Sequence[Placed] = (),
     seed: int = 1,
 ) -> NDArray[np.uint8]:
     """A picture of a label, by default our own in the middle of a well lit picture."""
-    placed = (*others, Placed(label, T_camera_label, lift_mm))
+    placed = (*others, Placed(label, T_camera_label, lift_mm, bow_mm=bow_mm))
     return photograph(CAMERA, placed, shot or Shot(), np.random.default_rng(seed))

@@ -87,7 +87,7 @@ def flat_code(
 def ideal_picture(
     camera: CameraModel, modules: NDArray[np.bool_], T_camera_label: Array, fineness: int
 ) -> NDArray[np.uint8]:
-    """Brute force: every pixel is the mean of fineness^2 rays; pinhole only, light on black.
+    """Brute force: every pixel is the mean of fineness^2 rays; pinhole only, then a tone curve.
 
     Deliberately written without any part of the renderer or the locator: pixel (u, v) collects
     the light from u - 1/2 to u + 1/2, so its centre is at integer coordinates.
@@ -105,6 +105,7 @@ def ideal_picture(
         cells = np.floor(in_label[..., :2] / (SIZE_MM / count) + count / 2).astype(int)
         inside = np.all((cells >= 0) & (cells < count), axis=-1)
         across, down = np.clip(np.moveaxis(cells, -1, 0), 0, count - 1)
-        light = np.where(inside & modules[down, across], 30.0, 220.0)
-        image[row] = np.round(light.reshape(fineness, camera.width, fineness).mean(axis=(0, 2)))
+        light = np.where(inside & modules[down, across], 0.01, 0.72)
+        mean = light.reshape(fineness, camera.width, fineness).mean(axis=(0, 2))
+        image[row] = np.round(255 * mean ** (1 / 2.2))
     return image

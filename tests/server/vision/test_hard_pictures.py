@@ -32,7 +32,7 @@ def errors(shots: list[Shot], T_camera_label: Array = PLACE) -> tuple[Array, Arr
     [
         ([Shot()] * 6, 0.004, 0.02, 0.03),
         ([Shot(motion_px=way) for way in ((4, 0), (0, 4), (3, 3), (-2, 3))], 0.03, 0.15, 0.15),
-        ([Shot(glare=((u, 0.45, 0.15, 0.5),)) for u in (0.3, 0.4, 0.5, 0.6)], 0.02, 0.08, 0.15),
+        ([Shot(glare=((u, 0.45, 0.15, 0.5),)) for u in (0.3, 0.4, 0.5, 0.6)], 0.02, 0.08, 0.20),
         ([Shot(jpeg=70)] * 6, 0.012, 0.06, 0.10),
         ([Shot(gradient=(0.9, -0.6)), Shot(gradient=(-0.9, 0.8))], 0.004, 0.02, 0.03),
         ([Shot(full_well=200.0, read_noise=0.03)] * 6, 0.04, 0.2, 0.3),

