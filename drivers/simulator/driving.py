@@ -20,9 +20,9 @@ class DrivingParameters(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    cruise_mm_s: Positive = Field(700.0, description="speed until near the place")
-    creep_mm_s: Positive = Field(220.0, description="speed over the last stretch")
-    creep_from_mm: Positive = Field(700.0, description="length of that stretch")
+    cruise_mm_s: Positive = Field(500.0, description="speed until near the place")
+    creep_mm_s: Positive = Field(140.0, description="speed over the last stretch")
+    creep_from_mm: Positive = Field(800.0, description="length of that stretch")
     acceleration_mm_s2: Positive = 700.0
     jerk_mm_s3: Positive = 1800.0
     brake_mm_s2: Positive = Field(1200.0, description="when told to stop")

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
 from server.config.camera import CameraSettings
+from server.config.guidance import GuidanceSettings
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
@@ -51,6 +52,7 @@ class Settings(BaseSettings):
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
     park: ParkSettings = ParkSettings()
+    guidance: GuidanceSettings = GuidanceSettings()
     recordings: RecordingSettings = RecordingSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
