@@ -16,7 +16,13 @@ from server.timing import Calendar
 
 def guidance_view(source: Guide, settings: Settings, calendar: Calendar) -> Guidance:
     """What the driver is told now."""
-    now: guide.Guidance = source.now
+    return view_of(source.now, source.reach, settings, calendar)
+
+
+def view_of(
+    now: guide.Guidance, reach: Reach, settings: Settings, calendar: Calendar
+) -> Guidance:
+    """What is known and said at one instant."""
     advice = now.advice
     return Guidance(
         state=advice.state.value,
@@ -34,7 +40,7 @@ def guidance_view(source: Guide, settings: Settings, calendar: Calendar) -> Guid
             for step in advice.steps
         ],
         car=_car(now.car, advice, calendar) if now.car is not None else None,
-        zones=_zones(source.reach, now.car),
+        zones=_zones(reach, now.car),
         driver_faces=settings.guidance.driver_faces,
         max_skew_deg=settings.insertion.max_tilt_deg,
     )

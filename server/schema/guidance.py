@@ -60,18 +60,18 @@ class GuidanceZones(Wire):
 class Guidance(Wire):
     """What the driver of an arriving car is told."""
 
-    state: State = "searching"
-    since: Timestamp | None = Field(None, description="Since when in this state")
+    state: State
+    since: Timestamp = Field(description="Since when in this state")
     arriving: bool = Field(
-        default=False, description="A car is on its way in, or has just stopped: show it by itself"
+        description="A car is on its way in, or has just stopped: show it by itself"
     )
-    headline: str = ""
-    detail: str = ""
-    remedy: str = Field("", description="What to do about a problem")
-    steps: list[GuidanceStep] = Field(
-        default_factory=list, description="What to do, the most important first"
+    headline: str
+    detail: str
+    remedy: str = Field(description="What to do about a problem; empty without one")
+    steps: list[GuidanceStep] = Field(description="What to do, the most important first")
+    car: GuidedCar | None
+    zones: GuidanceZones
+    driver_faces: Literal["robot", "away"] = Field(
+        description="Cars come in nose first, or backwards"
     )
-    car: GuidedCar | None = None
-    zones: GuidanceZones | None = None
-    driver_faces: Literal["robot", "away"] = "robot"
-    max_skew_deg: float = Field(3.0, description="What the plug can follow")
+    max_skew_deg: float = Field(description="What the plug can follow")

@@ -43,7 +43,7 @@ class Live(Wire):
     station: Station
     service: Service
     twin: TwinReport = TwinReport()
-    guidance: Guidance = Guidance()
+    guidance: Guidance | None = None
 
 
 class LiveChanges(Wire):

@@ -746,55 +746,47 @@ export interface components {
             /**
              * Arriving
              * @description A car is on its way in, or has just stopped: show it by itself
-             * @default false
              */
-            readonly arriving?: boolean;
-            readonly car?: components["schemas"]["GuidedCar"] | null;
-            /**
-             * Detail
-             * @default
-             */
-            readonly detail?: string;
+            readonly arriving: boolean;
+            readonly car: components["schemas"]["GuidedCar"] | null;
+            /** Detail */
+            readonly detail: string;
             /**
              * Driver Faces
-             * @default robot
+             * @description Cars come in nose first, or backwards
              * @enum {string}
              */
-            readonly driver_faces?: "robot" | "away";
-            /**
-             * Headline
-             * @default
-             */
-            readonly headline?: string;
+            readonly driver_faces: "robot" | "away";
+            /** Headline */
+            readonly headline: string;
             /**
              * Max Skew Deg
              * @description What the plug can follow
-             * @default 3
              */
-            readonly max_skew_deg?: number;
+            readonly max_skew_deg: number;
             /**
              * Remedy
-             * @description What to do about a problem
-             * @default
+             * @description What to do about a problem; empty without one
              */
-            readonly remedy?: string;
+            readonly remedy: string;
             /**
              * Since
+             * Format: date-time
              * @description Since when in this state
+             * @example 2026-03-01T18:04:05.120Z
              */
-            readonly since?: string | null;
+            readonly since: string;
             /**
              * State
-             * @default searching
              * @enum {string}
              */
-            readonly state?: "paused" | "searching" | "unreadable" | "lost" | "move" | "stop" | "good" | "thin" | "skewed";
+            readonly state: "paused" | "searching" | "unreadable" | "lost" | "move" | "stop" | "good" | "thin" | "skewed";
             /**
              * Steps
              * @description What to do, the most important first
              */
-            readonly steps?: readonly components["schemas"]["GuidanceStep"][];
-            readonly zones?: components["schemas"]["GuidanceZones"] | null;
+            readonly steps: readonly components["schemas"]["GuidanceStep"][];
+            readonly zones: components["schemas"]["GuidanceZones"];
         };
         /**
          * GuidanceStep
@@ -1210,22 +1202,8 @@ export interface components {
          * @description Every live section.
          */
         readonly Live: {
-            /**
-             * @default {
-             *       "arriving": false,
-             *       "car": null,
-             *       "detail": "",
-             *       "driver_faces": "robot",
-             *       "headline": "",
-             *       "max_skew_deg": 3,
-             *       "remedy": "",
-             *       "since": null,
-             *       "state": "searching",
-             *       "steps": [],
-             *       "zones": null
-             *     }
-             */
-            readonly guidance?: components["schemas"]["Guidance"];
+            /** @default null */
+            readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
             readonly job: components["schemas"]["Job"] | null;
             readonly robot: components["schemas"]["Robot"];
