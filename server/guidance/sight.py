@@ -10,6 +10,7 @@ import numpy as np
 import zxingcpp
 
 from drivers.camera import CameraModel
+from server.guidance.finder_patterns import unread_module_px
 from server.guidance.model import Array, Sighting, Unseen
 from server.localisation.socket_pose import socket_from_label
 from server.schema.vehicles import Vehicle
@@ -36,6 +37,9 @@ READABLE_MODULE_PX = 3.0
 
 THOROUGH_EVERY = 8
 """So many looks without a label, and one goes to all lengths."""
+
+CORNERS_EVERY = 4
+"""So many looks that found nothing, and one looks for the corners of a label."""
 
 _MODULES = 25
 _SMALLEST_SIDE_PX = 16.0
@@ -72,6 +76,8 @@ class LabelSight:
         self._locator = Locator(optics, Gates(jump_mm=JUMP_MM, jump_deg=JUMP_DEG))
         self._focal_px = optics.fx
         self._quick_looks = 0
+        self._blind_looks = 0
+        self._corners = Unseen.NOTHING
         self._codes = QrCodes()
         z_axis = np.array(geometry.insertion_axis)
         x_axis = np.array([1.0, 0.0, 0.0])
@@ -202,16 +208,26 @@ class LabelSight:
                 return codes
             sides_px.append(side_px)
         if sides_px:
-            near = max(sides_px) / _MODULES > READABLE_MODULE_PX
-            return Unseen.TOO_DIRTY if near else Unseen.TOO_FAR
+            return _too_small_or_dirty(max(sides_px) / _MODULES)
         error = no_code(image)
         if isinstance(error, PictureTooDarkError):
             return Unseen.TOO_DARK
-        return Unseen.TOO_BRIGHT if isinstance(error, PictureTooBrightError) else Unseen.NOTHING
+        if isinstance(error, PictureTooBrightError):
+            return Unseen.TOO_BRIGHT
+        return self._unrecognised(image)
+
+    def _unrecognised(self, image: Image) -> Unseen:
+        """Not even an unreadable code was found: perhaps its corners can be; now and then."""
+        if self._blind_looks % CORNERS_EVERY == 0:
+            module_px = unread_module_px(image)
+            self._corners = Unseen.NOTHING if module_px is None else _too_small_or_dirty(module_px)
+        self._blind_looks += 1
+        return self._corners
 
     def _sighting(
         self, pose: LabelPose, vehicle: Vehicle, at_s: float, T_base_camera: Array
     ) -> Sighting:
+        self._blind_looks = 0
         socket = socket_from_label(pose, T_base_camera, vehicle.socket, at_s)
         module_px = self._focal_px * vehicle.label_size_mm / _MODULES / pose.T_camera_label[2, 3]
         # A turn w of the label in the camera frame turns the axis a by w x a = -[a]x w.
@@ -229,6 +245,10 @@ class LabelSight:
             from_camera_mm=socket.T_base_label[:3, 3] - T_base_camera[:3, 3],
             flawed=pose.source is PoseSource.CORNERS and module_px > READABLE_MODULE_PX,
         )
+
+
+def _too_small_or_dirty(module_px: float) -> Unseen:
+    return Unseen.TOO_DIRTY if module_px > READABLE_MODULE_PX else Unseen.TOO_FAR
 
 
 def _at_least(covariance: Array) -> Array:

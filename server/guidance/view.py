@@ -19,9 +19,7 @@ def guidance_view(source: Guide, settings: Settings, calendar: Calendar) -> Guid
     return view_of(source.now, source.reach, settings, calendar)
 
 
-def view_of(
-    now: guide.Guidance, reach: Reach, settings: Settings, calendar: Calendar
-) -> Guidance:
+def view_of(now: guide.Guidance, reach: Reach, settings: Settings, calendar: Calendar) -> Guidance:
     """What is known and said at one instant."""
     advice = now.advice
     return Guidance(

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from datetime import datetime
 
 import numpy as np
 
 from server.config.settings import Settings
-from server.guidance.advice import Adviser
+from server.guidance.advice import Advice, Adviser
+from server.guidance.guide import Guidance as Guided
 from server.guidance.model import CarEstimate, Direction, PauseReason, Unseen
 from server.guidance.reach import Reach
 from server.guidance.view import view_of
-from server.guidance.guide import Guidance as Guided
 from server.schema.guidance import Guidance
 from server.timing import Calendar
 from tests.browser.scenes import NOW
@@ -23,7 +25,7 @@ class FixedCalendar(Calendar):
     def __init__(self) -> None:
         pass
 
-    def at(self, loop_time_s: float):
+    def at(self, loop_time_s: float) -> datetime:
         del loop_time_s
         return NOW
 
@@ -58,37 +60,51 @@ def car(
     )
 
 
-def scene(estimate: CarEstimate | None, **kind: object) -> Guidance:
-    """What the page is sent about it."""
-    limit = math.radians(SETTINGS.insertion.max_tilt_deg)
-    adviser = Adviser(REACH, SETTINGS.guidance, limit, 0.0)
+def scene(
+    tell: Callable[[Adviser, float], Advice], estimate: CarEstimate | None = None
+) -> Guidance:
+    """What the page is sent after something has been so for a while."""
+    adviser = Adviser(REACH, SETTINGS.guidance, math.radians(SETTINGS.insertion.max_tilt_deg), 0.0)
     for now_s in (0.0, 10.0):
-        if estimate is not None:
-            adviser.advise(estimate, now_s)
-        elif "lost" in kind:
-            adviser.lose(kind["lost"], now_s)
-        elif "unseen" in kind:
-            adviser.miss(kind["unseen"], now_s)
-        elif "paused" in kind:
-            adviser.pause(kind["paused"], now_s)
+        tell(adviser, now_s)
     guided = Guided(adviser.advice, estimate, None, arriving=True, looked_at_s=0.0)
     return view_of(guided, REACH, SETTINGS, FixedCalendar())
 
 
+def of_car(estimate: CarEstimate) -> Guidance:
+    """There is a car."""
+    return scene(lambda adviser, now_s: adviser.advise(estimate, now_s), estimate)
+
+
+def lost(edge: Direction | None) -> Guidance:
+    """There was one."""
+    return scene(lambda adviser, now_s: adviser.lose(edge, now_s))
+
+
+def missed(why: Unseen) -> Guidance:
+    """There is none that could be made out."""
+    return scene(lambda adviser, now_s: adviser.miss(why, now_s))
+
+
+def paused(reason: PauseReason) -> Guidance:
+    """There is no guidance."""
+    return scene(lambda adviser, now_s: adviser.pause(reason, now_s))
+
+
 SCENES: dict[str, Guidance] = {
-    "far": scene(car(690, 1120, speed_mm_s=380, sigma_mm=4, skew_sigma_deg=1.8, turned_deg=-2)),
-    "near": scene(car(668, 460, speed_mm_s=110, sigma_mm=1.6)),
-    "aside": scene(car(805, 420, speed_mm_s=90, sigma_mm=1.4, turned_deg=4)),
-    "stop": scene(car(652, 305, speed_mm_s=120, sigma_mm=1.1)),
-    "good": scene(car(652, 239)),
-    "thin": scene(car(747, 241)),
-    "short": scene(car(640, 288)),
-    "deep": scene(car(640, 212)),
-    "skewed": scene(car(655, 240, turned_deg=5.4)),
-    "lost": scene(None, lost=Direction.RIGHT),
-    "hidden": scene(None, lost=None),
-    "dirty": scene(None, unseen=Unseen.TOO_DIRTY),
-    "waiting": scene(None, unseen=Unseen.NOTHING),
-    "not_parked": scene(None, paused=PauseReason.ROBOT_NOT_PARKED),
-    "camera_down": scene(None, paused=PauseReason.CAMERA_DOWN),
+    "far": of_car(car(690, 1120, speed_mm_s=380, sigma_mm=4, skew_sigma_deg=1.8, turned_deg=-2)),
+    "near": of_car(car(668, 460, speed_mm_s=110, sigma_mm=1.6)),
+    "aside": of_car(car(805, 420, speed_mm_s=90, sigma_mm=1.4, turned_deg=4)),
+    "stop": of_car(car(652, 305, speed_mm_s=120, sigma_mm=1.1)),
+    "good": of_car(car(652, 239)),
+    "thin": of_car(car(747, 241)),
+    "short": of_car(car(640, 288)),
+    "deep": of_car(car(640, 212)),
+    "skewed": of_car(car(655, 240, turned_deg=5.4)),
+    "lost": lost(Direction.RIGHT),
+    "hidden": lost(None),
+    "dirty": missed(Unseen.TOO_DIRTY),
+    "waiting": missed(Unseen.NOTHING),
+    "not_parked": paused(PauseReason.ROBOT_NOT_PARKED),
+    "camera_down": paused(PauseReason.CAMERA_DOWN),
 }

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from drivers.camera import pi_camera_v2
 from drivers.simulator.driving import DrivingParameters
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.moving_car import CarState, MovingCar
@@ -19,7 +20,6 @@ from drivers.simulator.traffic import (
 )
 from drivers.simulator.world import CarIsPluggedInError
 from tests.drivers.simulator.stand import GEOMETRY, HOMED, LIMITS, PERFECT, Stand, on_stand
-from drivers.camera import pi_camera_v2
 from twin.camera_mount import CameraMount
 
 NUMBERS = DrivingParameters()

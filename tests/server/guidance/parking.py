@@ -43,6 +43,14 @@ class Parking:
     def advice(self) -> Advice:
         return self.guide.now.advice
 
+    def arriving(self) -> bool:
+        """Whether the page would show itself."""
+        return self.guide.now.arriving
+
+    def looked_at_s(self) -> float | None:
+        """When the newest picture was taken."""
+        return self.guide.now.looked_at_s
+
     @property
     def states(self) -> list[GuidanceState]:
         """Every state in the order in which it was said."""

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -10,7 +11,6 @@ from hypothesis import strategies as st
 from server.config.guidance import GuidanceSettings
 from server.guidance.advice import Advice, Adviser
 from server.guidance.model import CarEstimate, Direction, GuidanceState, PauseReason, Unseen
-from server.guidance.reach import Reach
 from tests.server.guidance.cars import LIMIT_RAD, MIDDLE_X_MM, REACH, SETTINGS, estimate
 
 STEP_S = 0.1
@@ -21,8 +21,7 @@ REACH_EDGE_X_MM = REACH.reachable.rail_at(GOOD.upward.middle_mm).high_mm
 
 def an_adviser(**changed: object) -> Adviser:
     guidance = GuidanceSettings.model_validate({**SETTINGS.guidance.model_dump(), **changed})
-    reach = Reach(SETTINGS.geometry, SETTINGS.insertion, guidance)
-    return Adviser(reach, guidance, LIMIT_RAD, 0.0)
+    return Adviser(REACH, guidance, LIMIT_RAD, 0.0)
 
 
 def settled(adviser: Adviser, car: CarEstimate, from_s: float = 0.0) -> Advice:
@@ -195,7 +194,7 @@ class TestSteadiness:
         for step in range(120):
             car = estimate(x_mm=x_mm + rng.uniform(-noise_mm, noise_mm))
             states.append(adviser.advise(car, step * STEP_S).state)
-        changes = sum(a is not b for a, b in zip(states[4:], states[5:], strict=False))
+        changes = sum(a is not b for a, b in pairwise(states[4:]))
         assert changes <= 1
 
     def test_a_state_must_last_before_it_is_said(self) -> None:
@@ -223,16 +222,15 @@ class TestSteadiness:
 
 @settings(max_examples=300, deadline=None)
 @given(
-    x_mm=st.floats(300, 1000),
-    y_mm=st.floats(0, 600),
-    z_mm=st.floats(205, 1500),
+    place=st.tuples(st.floats(300, 1000), st.floats(0, 600), st.floats(205, 1500)),
     speed_mm_s=st.sampled_from([0.0, -150.0, 20.0, 400.0]),
     skew_deg=st.floats(0, 12),
     faces=st.sampled_from(["robot", "away"]),
 )
-def test_whatever_the_car_does_there_is_one_clear_word(  # noqa: PLR0913 - one per dimension
-    x_mm: float, y_mm: float, z_mm: float, speed_mm_s: float, skew_deg: float, faces: str
+def test_whatever_the_car_does_there_is_one_clear_word(
+    place: tuple[float, float, float], speed_mm_s: float, skew_deg: float, faces: str
 ) -> None:
+    x_mm, y_mm, z_mm = place
     adviser = an_adviser(driver_faces=faces)
     car = estimate(x_mm, z_mm, y_mm, speed_mm_s=speed_mm_s, skew_deg=skew_deg, turned_deg=skew_deg)
     advice = settled(adviser, car)
@@ -252,8 +250,6 @@ def test_whatever_the_car_does_there_is_one_clear_word(  # noqa: PLR0913 - one p
 def test_who_backs_in_is_told_from_his_own_seat() -> None:
     car = estimate(x_mm=EDGE_X_MM + 60.0, z_mm=700.0, speed_mm_s=30.0)
     facing = {step.direction for step in settled(an_adviser(), car).steps}
-    backing = {
-        step.direction for step in settled(an_adviser(driver_faces="away"), car).steps
-    }
+    backing = {step.direction for step in settled(an_adviser(driver_faces="away"), car).steps}
     assert facing == {Direction.FORWARD, Direction.LEFT}
     assert backing == {Direction.BACK, Direction.RIGHT}

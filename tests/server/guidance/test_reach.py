@@ -110,8 +110,10 @@ def test_the_outline_runs_along_the_edge_of_the_zone() -> None:
 def test_a_robot_without_any_margin_has_only_its_reach() -> None:
     guidance = GUIDANCE.model_copy(update={"margin_mm": 80.0})
     tiny = GEOMETRY.model_copy(
-        update={"rho1": GEOMETRY.rho1.model_copy(update={"max_mm": 300.0}),
-                "rho2": GEOMETRY.rho2.model_copy(update={"max_mm": 300.0})}
+        update={
+            "rho1": GEOMETRY.rho1.model_copy(update={"max_mm": 300.0}),
+            "rho2": GEOMETRY.rho2.model_copy(update={"max_mm": 300.0}),
+        }
     )
     reach = Reach(tiny, INSERTION, guidance)
     assert reach.good.depth.low_mm <= reach.stop_z_mm <= reach.good.depth.high_mm

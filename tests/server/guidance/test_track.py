@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from server.guidance.track import CarTrack, LEAN_SIGMA
+from server.guidance.track import LEAN_SIGMA, CarTrack
 from tests.server.guidance.cars import SETTINGS, sighting
 
 START = np.array([650.0, 260.0, 1100.0])
