@@ -30,7 +30,13 @@ export function GuidanceCard() {
     hidden.value = open;
   };
   return (
-    <section ref={card} class="card guidance" data-open={open} aria-label={say.title}>
+    <section
+      ref={card}
+      class="card guidance"
+      data-open={open}
+      data-arriving={arriving}
+      aria-label={say.title}
+    >
       {open && <Shown guidance={guidance} />}
       {open && simulated && <SimulatedCar />}
       <button type="button" class="button guidance-toggle" aria-expanded={open} onClick={toggle}>
