@@ -189,7 +189,7 @@ class Guide:
         if track is None or at_s - track.last.at_s > self._settings.lost_s:
             return None
         T_camera_label = inverse(T_base_camera) @ track.label_at(at_s)
-        return Expected(track.last.vehicle_id, T_camera_label, track.still)
+        return Expected(track.last.vehicle_id, T_camera_label)
 
     def _take(self, sighting: Sighting) -> None:
         track = self._track

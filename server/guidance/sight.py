@@ -30,7 +30,7 @@ JUMP_MM, JUMP_DEG = 150.0, 15.0
 """A car that brakes is not where it was expected; between two jobs nothing can be hurt by it."""
 
 FOLLOW_WITHIN_MM = 900.0
-"""Nearer than this an expectation is good enough to be refined without decoding."""
+"""Nearer than this an expectation is good enough to find a label that cannot be decoded now."""
 
 READABLE_MODULE_PX = 3.0
 """A code whose modules are larger can be read when it is whole and clean; see README.md."""
@@ -53,12 +53,10 @@ class Expected:
     Attributes:
         vehicle_id: Whose it is.
         T_camera_label: Its pose.
-        still: It does not move.
     """
 
     vehicle_id: str
     T_camera_label: Array
-    still: bool
 
 
 class LabelSight:
@@ -105,11 +103,11 @@ class LabelSight:
         """
         if not vehicles:
             return Unseen.NO_VEHICLE
-        if expected is not None:
+        found: list[Code] | Unseen = self._read(image)
+        if not found and expected is not None:
             followed = self._followed(image, vehicles, expected)
             if followed is not None:
                 return self._sighting(*followed, at_s, T_base_camera)
-        found: list[Code] | Unseen = self._read(image)
         if not found:
             found = self._near_unreadable(image)
         if isinstance(found, Unseen):
@@ -118,7 +116,7 @@ class LabelSight:
         if isinstance(chosen, Unseen):
             return chosen
         code, vehicle = chosen
-        pose = self._pose(image, code, vehicle, moving=expected is None or not expected.still)
+        pose = self._pose(image, code, vehicle)
         if isinstance(pose, Unseen):
             return pose
         return self._sighting(pose, vehicle, at_s, T_base_camera)
@@ -158,12 +156,14 @@ class LabelSight:
             return Unseen.TWICE
         return code, by_payload[code.payload]
 
-    def _pose(
-        self, image: Image, code: Code, vehicle: Vehicle, *, moving: bool
-    ) -> LabelPose | Unseen:
-        """The accurate pose, or the one of the corners."""
+    def _pose(self, image: Image, code: Code, vehicle: Vehicle) -> LabelPose | Unseen:
+        """The accurate pose, or the one of the corners.
+
+        What a rolling shutter does to a moving label is left in: the fit that takes it out has more
+        freedom and can be off by a percent. The track counts on it instead.
+        """
         try:
-            return self._locator.fit(image, code, vehicle.label_size_mm, moving=moving)
+            return self._locator.fit(image, code, vehicle.label_size_mm)
         except MirroredCodeError:
             return Unseen.MIRRORED
         except PoseRejectedError:
@@ -175,7 +175,7 @@ class LabelSight:
     def _followed(
         self, image: Image, vehicles: Sequence[Vehicle], expected: Expected
     ) -> tuple[LabelPose, Vehicle] | None:
-        """The expected label refined in its place; None if that does not succeed."""
+        """The expected label, blurred or dazzled for a moment, in its place; else None."""
         vehicle = next((v for v in vehicles if v.id == expected.vehicle_id), None)
         if vehicle is None or expected.T_camera_label[2, 3] > FOLLOW_WITHIN_MM:
             return None
@@ -185,7 +185,6 @@ class LabelSight:
                 label_size_mm=vehicle.label_size_mm,
                 expected_payload=vehicle.label_payload,
                 predicted=expected.T_camera_label,
-                moving=not expected.still,
             )
         except VisionError:
             return None

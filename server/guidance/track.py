@@ -33,8 +33,14 @@ ROBOT_SIGMA_MM = 0.5
 LEAN_SIGMA = math.radians(0.2)
 """Of the tilt: a label that is bowed by 0.3 mm."""
 
-MOVING_LEAN_SIGMA = math.radians(1.2)
-"""Of the tilt of a moving label: what is left of the rolling shutter's shear."""
+MOVING_LEAN_SIGMA = math.radians(1.0)
+SHEAR_S = 0.005
+"""A rolling shutter reads a near label within this time; its motion then looks like a tilt."""
+
+ROW_S = 0.006
+"""And the label is seen so long before or after the middle of the picture."""
+
+_LABEL_MM = 60.0
 
 OTHER_CAR = 30.0
 """Squared distance in standard deviations from which a sighting belongs to another motion."""
@@ -83,7 +89,7 @@ class CarTrack:
         if elapsed_s <= 0:
             return
         state, covariance = self._predicted(elapsed_s)
-        noise = _noise(sighting)
+        noise = _noise(sighting) + (ROW_S * np.linalg.norm(self._state[3:])) ** 2 * np.eye(3)
         innovation = sighting.place_mm - state[:3]
         spread = covariance[:3, :3] + noise
         if float(innovation @ np.linalg.solve(spread, innovation)) > OTHER_CAR:
@@ -179,7 +185,10 @@ class CarTrack:
             weighted += inverse @ sighting.lean
         covariance = np.linalg.inv(information)
         lean = covariance @ weighted
-        floor = LEAN_SIGMA if still else math.hypot(LEAN_SIGMA, MOVING_LEAN_SIGMA)
+        floor = LEAN_SIGMA
+        if not still:
+            shear = SHEAR_S * float(np.linalg.norm(self._state[3:])) / _LABEL_MM
+            floor = math.hypot(LEAN_SIGMA, MOVING_LEAN_SIGMA, shear)
         covariance += floor**2 * np.eye(2)
         size = float(np.linalg.norm(lean))
         toward = lean / size if size > 1e-9 else np.array([1.0, 0.0])

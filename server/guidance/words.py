@@ -94,7 +94,7 @@ GOOD_FLAWED = Words(
     "The car stands well, but its label does not look as it should.",
     "Wipe the label before you charge.",
 )
-STOP = Words("Stop", "You are there.")
+STOP = Words("Stop", "Brake now.")
 
 _HEADLINES = {
     Direction.FORWARD: "{} forward",

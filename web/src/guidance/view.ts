@@ -50,7 +50,7 @@ export function bigStep({ state, steps }: Guidance): GuidanceStep | null {
 export const WIDTH = 350;
 export const HEIGHT = 290;
 /** How many millimetres the height may show; the robot's wall is always in it. */
-const SPANS_MM = [430, 640, 950, 1400] as const;
+const SPANS_MM = [460, 660, 950, 1400] as const;
 /** Of a span: zooming in needs so much room to spare, or the picture would pump. */
 const SPARE = 0.85;
 const BEHIND_WALL_MM = 34;
