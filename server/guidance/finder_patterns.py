@@ -18,6 +18,8 @@ from server.vision.markers.code import Image
 
 _AROUND_PX = 41  # of the threshold
 _DARKER = 8
+_NOISE_PX = 1.0
+_MOST_CONTOURS = 20_000  # nothing but noise
 _LEAST_SIDE_PX = 10.0
 _WHOLE_TO_CORE, _HOLE_TO_CORE = (3.0, 9.5), (1.6, 4.6)
 _SQUARE = 0.6
@@ -50,11 +52,14 @@ def unread_module_px(image: Image) -> float | None:
 
 def finder_patterns(image: Image) -> list[FinderPattern]:
     """All squares that look like corners of a code."""
+    smooth = cv2.GaussianBlur(image, (0, 0), _NOISE_PX)  # or every grain would be a contour
     binary = cv2.adaptiveThreshold(
-        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, _AROUND_PX, _DARKER
+        smooth, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, _AROUND_PX, _DARKER
     )
     contours, hierarchy = cv2.findContours(binary, cv2.RETR_TREE, cv2.CHAIN_APPROX_SIMPLE)
     patterns: list[FinderPattern] = []
+    if len(contours) > _MOST_CONTOURS:
+        return patterns
     for index, outer in enumerate(contours):
         hole = int(hierarchy[0][index][2])
         core = int(hierarchy[0][hole][2]) if hole >= 0 else -1

@@ -78,7 +78,7 @@ def test_labels_of_nobody_known_here(shot: Shot) -> None:
 
 def test_the_same_label_twice(shot: Shot) -> None:
     image = np.asarray(shot.frame.image)
-    label = image[:, image.shape[1] // 2 :]
+    label = image[:, : image.shape[1] // 2]
     twice = np.hstack((label, label))[:, : image.shape[1]]
     assert shot.look(np.ascontiguousarray(twice)) is Unseen.TWICE
 
