@@ -144,9 +144,10 @@ def test_a_dirty_label_is_named_as_soon_as_it_should_be_readable() -> None:
         park_in_the_middle(scene)
         parking = Parking(scene)
         parking.arrive(from_mm=600.0)
-        advice = await parking.until(GuidanceState.UNREADABLE)
-        assert advice.words.headline == "The label cannot be read"
-        assert "wipe the label" in advice.words.remedy
+        await parking.until(GuidanceState.UNREADABLE)
+        await parking.watch(5.0)  # from afar it might only be too small
+        assert parking.advice.words.headline == "The label cannot be read"
+        assert "wipe the label" in parking.advice.words.remedy
 
     on_scene(scenario, seed=3, settings=quick(covered=0.15))
 
