@@ -23,6 +23,8 @@ from server.control.path_check import Strength
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.divergence.report import twin_report
+from server.guidance.guide import Guide
+from server.guidance.view import guidance_view
 from server.jobs.runner import JobRunner
 from server.labels.key_file import load_label_key
 from server.labels.payload import LabelKey
@@ -38,6 +40,7 @@ from server.recordings.store import RecordingStore
 from server.schema.live import Service
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
+from server.simulated_car import SimulatedCar
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.plug import StoredPlug
@@ -135,6 +138,15 @@ async def running(
         )
         stack.push_async_callback(divergence.close)
 
+        guide = Guide(
+            devices.camera,
+            supervisor,
+            vehicles,
+            settings,
+            watched=lambda: live.watchers > 0,
+            speed=speed,
+        )
+
         def station_read() -> None:
             recorder.station_changed()
             live.changed("station")
@@ -168,10 +180,12 @@ async def running(
             camera=camera,
             live=live,
             divergence=divergence,
+            guide=guide,
             recordings=recordings,
             playbacks=Playbacks(recordings, settings.recordings),
             twin=twin,
             garage=devices.garage,
+            simulated_car=_simulated_car(devices, settings),
         )
         _show(services)
         await supervisor.start(wait=wait_for_robot)
@@ -180,6 +194,8 @@ async def running(
         stack.push_async_callback(runner.close)
         await services.station.start()
         stack.push_async_callback(services.station.close)
+        await guide.start()
+        stack.push_async_callback(guide.close)
         yield services
 
 
@@ -253,6 +269,13 @@ async def _introduce(world: SimulatedWorld, vehicles: VehicleStore) -> None:
     world.stick_label(vehicle.label_payload)
 
 
+def _simulated_car(devices: Devices, settings: Settings) -> SimulatedCar | None:
+    """The car before a simulated camera."""
+    if devices.world is None or settings.camera.driver != SIMULATOR:
+        return None
+    return SimulatedCar(devices.world)
+
+
 def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
     """Let the simulated surroundings of a real robot know where it stands."""
 
@@ -280,6 +303,10 @@ def _show(services: Services) -> None:
     )
     live.add("service", lambda: _service(services))
     live.add("twin", lambda: twin_report(services.divergence.parted, services.calendar))
+    live.add(
+        "guidance", lambda: guidance_view(services.guide, services.settings, services.calendar)
+    )
+    services.guide.listen(lambda: live.changed("guidance"))
     services.divergence.listen(lambda _: live.changed("twin", urgent=True))
 
     shown: list[object] = [None]

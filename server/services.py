@@ -10,12 +10,14 @@ from server.config.settings import Settings
 from server.control.jog import Jog
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
+from server.guidance.guide import Guide
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
 from server.live.station_watch import StationWatch
 from server.recordings.playbacks import Playbacks
 from server.recordings.store import RecordingStore
+from server.simulated_car import SimulatedCar
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
@@ -41,10 +43,12 @@ class Services:
         camera: Pictures for people.
         live: Pushes what changes.
         divergence: Runs the model beside the robot.
+        guide: Tells arriving drivers how far to go.
         recordings: What was recorded of jobs.
         playbacks: The same for the 3D picture.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
+        simulated_car: The car of the simulated garage; None before a real camera.
     """
 
     settings: Settings
@@ -60,7 +64,9 @@ class Services:
     camera: CameraFeed
     live: LiveHub
     divergence: DivergenceWatcher
+    guide: Guide
     recordings: RecordingStore
     playbacks: Playbacks
     twin: TwinHost | None
     garage: SimulatedGarage | None
+    simulated_car: SimulatedCar | None

@@ -56,6 +56,14 @@ class ParkedCar:
     peak_force_n: float
     wanted_wh: float
 
+    def moved(self, displacement: Pose) -> ParkedCar:
+        """The same car elsewhere; the displacement acts in the base frame, shape (4, 4)."""
+        return replace(
+            self,
+            T_base_label=displacement @ self.T_base_label,
+            T_base_socket=displacement @ self.T_base_socket,
+        )
+
     def driven_away(self) -> ParkedCar:
         """The same car, far out of reach and sight."""
         label, socket = self.T_base_label.copy(), self.T_base_socket.copy()

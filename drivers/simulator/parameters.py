@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from drivers.simulator.camera.conditions import FLAWLESS, Conditions
 from drivers.simulator.camera.imaging import ImagingParameters
+from drivers.simulator.driving import DrivingParameters
 from twin.joints import JointPosition
 
 Spread = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
@@ -221,6 +222,7 @@ class SimulationParameters(Parameters):
     board: BoardParameters = BoardParameters()
     contact: ContactParameters = ContactParameters()
     car: CarParameters = CarParameters()
+    driving: DrivingParameters = DrivingParameters()
     station: StationParameters = StationParameters()
     imaging: ImagingParameters = ImagingParameters()
     conditions: Conditions = Conditions()

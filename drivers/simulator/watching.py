@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drivers.simulator import poses
 from drivers.simulator.car import ParkedCar
@@ -16,7 +17,11 @@ def plug_pose(plant: Plant, state: PlantState) -> Pose:
 
 
 def camera_view(
-    plant: Plant, state: PlantState, platform_camera: Pose, car: ParkedCar
+    plant: Plant,
+    state: PlantState,
+    platform_camera: Pose,
+    car: ParkedCar,
+    label_velocity_mm_s: NDArray[np.float64],
 ) -> CameraView:
     """The true scene in the camera frame.
 
@@ -25,6 +30,7 @@ def camera_view(
         state: Where it stands.
         platform_camera: T_platform_camera of the camera as it was screwed on.
         car: The car in front of it.
+        label_velocity_mm_s: Of its label in the base frame, shape (3,).
     """
     v = plant.platform(state)
     base_platform = poses.pose(np.eye(3), np.array([v.x_mm, v.y_mm, 0.0]))
@@ -37,7 +43,7 @@ def camera_view(
         T_camera_label=camera_base @ car.T_base_label,
         T_camera_socket=camera_base @ car.T_base_socket,
         T_camera_plug=camera_base @ plug_pose(plant, state),
-        label_velocity_mm_s=-camera_base[:3, :3] @ camera_velocity,
+        label_velocity_mm_s=camera_base[:3, :3] @ (label_velocity_mm_s - camera_velocity),
         payload=car.payload,
         label_size_mm=car.label_size_mm,
     )

@@ -15,6 +15,8 @@ import numpy as np
 
 from drivers.simulator.build import built_geometry, built_mechanism, built_mount
 from drivers.simulator.car import ParkedCar, park
+from drivers.simulator.car_spot import CarSpot
+from drivers.simulator.moving_car import MovingCar
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.plant import Plant, PlantState, Socket, Surroundings
 from drivers.simulator.randomness import Streams
@@ -97,9 +99,9 @@ class SimulatedWorld:
         standing = JointPosition(*(q + z for q, z in zip(stored, self._zero, strict=True)))
         self._state = PlantState(0.0, stored, standing)
         self._history = deque([self._state])
-        self._parked = park(geometry, parameters.car, parameters.contact, self.streams.car)
-        self._car = self._parked
-        self._take_in(self._parked)
+        car = park(geometry, parameters.car, parameters.contact, self.streams.car)
+        self.spot = CarSpot(car)
+        self._take_in(car)
 
     def _power_up_joints(self) -> JointPosition:
         """Where the board remembers to stand when it wakes up.
@@ -122,7 +124,7 @@ class SimulatedWorld:
     @property
     def car(self) -> ParkedCar:
         """The car in the garage, or the one that has just left it."""
-        return self._car
+        return self.spot.at(self.now_s)
 
     def park_car(self, seed: int) -> None:
         """Another car parks at a place of its own.
@@ -132,7 +134,7 @@ class SimulatedWorld:
         """
         rng = np.random.default_rng(seed)
         parked = park(self.geometry, self.parameters.car, self.parameters.contact, rng)
-        self._drive(replace(parked, payload=self._car.payload))
+        self._drive(replace(parked, payload=self.car.payload))
 
     def remove_car(self) -> None:
         """The car drives away.
@@ -140,34 +142,48 @@ class SimulatedWorld:
         Raises:
             CarIsPluggedInError: the plug is in the socket.
         """
-        self._drive(self._car.driven_away())
+        self._require_unplugged()
+        self.spot.vanish()
+        self._take_in(self.car)
+
+    def let_drive(self, moving: MovingCar, now_s: float) -> None:
+        """From now on the car is where its driver brings it.
+
+        Raises:
+            CarIsPluggedInError: the plug is in the socket.
+        """
+        self.advance(now_s)
+        self._require_unplugged()
+        self.spot.drive(moving)
+        self._take_in(self.car)
 
     def stick_label(self, text: str) -> None:
         """Put a new label over the old one, with another text; cars that park later have it too."""
-        self._car = replace(self._car, payload=text)
-        self._parked = replace(self._parked, payload=text)
+        self.spot.stick_label(text)
 
     def hide_label(self) -> None:
         """Something covers the label; the socket stays where it is."""
-        self._car = self._car.without_label()
+        self.spot.cover_label(covered=True)
 
     def show_label(self) -> None:
         """The label can be seen again."""
-        self._car = replace(self._car, T_base_label=self._parked.T_base_label)
+        self.spot.cover_label(covered=False)
 
     def _drive(self, car: ParkedCar) -> None:
+        self._require_unplugged()
+        self.spot.park(car)
+        self._take_in(car)
+
+    def _require_unplugged(self) -> None:
         if self._state.contact.place is Place.IN_SOCKET:
             raise CarIsPluggedInError("the plug is in the socket: withdraw it first")
-        self._parked = car
-        self._take_in(car)
-        self._disturb(self._state._replace(contact=FREE, max_force_n=0.0, lateral_violation_mm=0.0))
 
     def _take_in(self, car: ParkedCar) -> None:
-        self._car = car
         self.wanted_wh = car.wanted_wh
         self._socket = Socket(
             car.T_base_socket, SocketContact(self.parameters.contact, car.peak_force_n)
         )
+        self._disturb(self._state._replace(contact=FREE, max_force_n=0.0, lateral_violation_mm=0.0))
 
     # --- time --------------------------------------------------------------------------------
 
@@ -180,6 +196,8 @@ class SimulatedWorld:
         """Work out everything up to a time and return the state then."""
         if now_s <= self._state.t_s:
             return self._state
+        if self.spot.moving is not None:
+            self._socket = Socket(self.spot.at(now_s).T_base_socket, self._socket.contact)
         self._state = self._plant.advance(self._state, self.line, self._surroundings, now_s)
         self._history.append(self._state)
         while self._history[0].t_s < now_s - HISTORY_S:
@@ -312,11 +330,17 @@ class SimulatedWorld:
 
     def view_at(self, t_s: float) -> CameraView:
         """The scene in the camera frame at a time of the recent past or the near future [s]."""
-        return camera_view(self._plant, self._state_at(t_s), self._platform_camera, self._car)
+        return camera_view(
+            self._plant,
+            self._state_at(t_s),
+            self._platform_camera,
+            self.spot.at(t_s),
+            self.spot.label_velocity_mm_s(t_s),
+        )
 
     def truth(self, at_s: float | None = None) -> GroundTruth:
         """The truth at a time, or when something was last worked out."""
         state = self._state if at_s is None else self.advance(at_s)
         return ground_truth(
-            self._plant, state, self._car, self.parameters.contact, load_breaks=self.load_breaks
+            self._plant, state, self.car, self.parameters.contact, load_breaks=self.load_breaks
         )

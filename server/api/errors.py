@@ -6,7 +6,8 @@ RequestError
 ├── NotFoundError        there is nothing at this address
 ├── MethodError          the address does not take this method
 ├── InvalidCursorError   the cursor is not one of ours
-└── CameraFailedError    the camera does not deliver
+├── CameraFailedError    the camera does not deliver
+└── NotSimulatedError    that exists in the simulator only
 """
 
 from __future__ import annotations
@@ -72,3 +73,12 @@ class CameraFailedError(RequestError):
     title = "The camera does not deliver pictures"
     status = 503
     remedy = "Check the camera's cable, then try again."
+
+
+class NotSimulatedError(RequestError):
+    """That exists in the simulator only."""
+
+    code = "not_simulated"
+    title = "There is no simulated car"
+    status = 409
+    remedy = "Start PlugPilot with a simulated camera: plugpilot serve, without other settings."

@@ -9,6 +9,7 @@ from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, Settings
 
 from server.config.camera import CameraSettings
 from server.config.forces import force_conflict
+from server.config.guidance import GuidanceSettings
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
@@ -53,6 +54,7 @@ class Settings(BaseSettings):
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
     park: ParkSettings = ParkSettings()
+    guidance: GuidanceSettings = GuidanceSettings()
     recordings: RecordingSettings = RecordingSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()

@@ -13,6 +13,7 @@ from pydantic import Field
 
 from server.schema.base import Timestamp, Wire
 from server.schema.divergence import TwinReport
+from server.schema.guidance import Guidance
 from server.schema.jobs import Job
 from server.schema.problem import Problem
 from server.schema.robot import JogStep, Robot
@@ -42,6 +43,7 @@ class Live(Wire):
     station: Station
     service: Service
     twin: TwinReport = TwinReport()
+    guidance: Guidance | None = None
 
 
 class LiveChanges(Wire):
@@ -52,6 +54,7 @@ class LiveChanges(Wire):
     station: Station | None = None
     service: Service | None = None
     twin: TwinReport | None = None
+    guidance: Guidance | None = None
 
 
 class SnapshotMessage(Wire):

@@ -94,6 +94,7 @@ export function live(changes: Partial<Live> = {}): Live {
       started_at: START,
     },
     twin: { divergences: [] },
+    guidance: null,
     ...changes,
   };
 }

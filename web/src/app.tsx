@@ -1,3 +1,4 @@
+import { GuidanceCard } from "@/guidance/card";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
@@ -17,6 +18,7 @@ export function App() {
       <Header />
       <main class="page">
         <div class="column">
+          <GuidanceCard />
           <Hero />
           <TwinAlarm />
           <StationCard />

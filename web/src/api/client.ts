@@ -1,7 +1,16 @@
 /** Calls to the REST API; every failure becomes a Refusal with words for a person. */
 import { words } from "@/words";
 import { randomKey } from "./key";
-import type { Job, JobPage, JobRequest, Playback, Reach, StopKind, VehicleList } from "./wire";
+import type {
+  CarCommand,
+  Job,
+  JobPage,
+  JobRequest,
+  Playback,
+  Reach,
+  StopKind,
+  VehicleList,
+} from "./wire";
 
 const ROOT = "/api/v1";
 const PATIENCE_MS = 10_000;
@@ -112,6 +121,10 @@ export type RobotCommand = "home" | "enable" | "disable" | "reset";
 
 export const commandRobot = (command: RobotCommand): Promise<unknown> =>
   call(`/robot/${command}`, { method: "POST" });
+
+/** Tells the simulated car what to do. */
+export const commandSimulatedCar = (command: CarCommand): Promise<unknown> =>
+  call("/simulation/car", { method: "POST", body: command });
 
 export const stopByRest = (kind: StopKind): Promise<unknown> =>
   call(kind === "stop" ? "/robot/stop" : "/robot/estop", {

@@ -44,6 +44,29 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/guidance": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Get Guidance
+         * @description What the driver of an arriving car is told now.
+         *
+         *     The camera looks only while somebody watches or asks: the first answer may know of no car yet.
+         *     Ask again every second, or watch the section ``guidance`` of the WebSocket.
+         */
+        readonly get: operations["getGuidance"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/health": {
         readonly parameters: {
             readonly query?: never;
@@ -431,6 +454,30 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/simulation/car": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Get Car
+         * @description Where the simulated car really is.
+         */
+        readonly get: operations["getSimulatedCar"];
+        readonly put?: never;
+        /**
+         * Command Car
+         * @description Let the simulated car drive in, on, stop or leave; answers at once.
+         */
+        readonly post: operations["commandSimulatedCar"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/station": {
         readonly parameters: {
             readonly query?: never;
@@ -503,6 +550,17 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Brake
+         * @description Stop now.
+         */
+        readonly Brake: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "brake";
+        };
         readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
          * CommandedMotion
@@ -626,6 +684,65 @@ export interface components {
             readonly unit: "mm" | "N" | "s";
         };
         /**
+         * DriveIn
+         * @description Come in from outside and stop at the place, or as near to it as the driver manages.
+         */
+        readonly DriveIn: {
+            /**
+             * Aims Right Mm
+             * @description The driver misjudges the place by so much
+             * @default 0
+             */
+            readonly aims_right_mm?: number;
+            /**
+             * From Mm
+             * @description How far before its place
+             * @default 3500
+             */
+            readonly from_mm?: number;
+            /**
+             * Heading Deg
+             * @description How the car is turned then, positive to the left
+             * @default 0
+             */
+            readonly heading_deg?: number;
+            /**
+             * Past Mm
+             * @description Stop beyond the place, or short of it if negative
+             * @default 0
+             */
+            readonly past_mm?: number;
+            /**
+             * Right Mm
+             * @description How far beside its way the socket is then
+             * @default 0
+             */
+            readonly right_mm?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "drive_in";
+        };
+        /**
+         * DriveOn
+         * @description Go on so far from where the car is, back if negative.
+         */
+        readonly DriveOn: {
+            /** Forward Mm */
+            readonly forward_mm: number;
+            /**
+             * Steer Right Mm
+             * @description Steer to a line so far beside the last one; null goes straight
+             */
+            readonly steer_right_mm?: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "drive_on";
+        };
+        /**
          * EmergencyStopMessage
          * @description Emergency stop (category 1, latched). Needs no control, is never queued.
          */
@@ -640,6 +757,165 @@ export interface components {
              * @enum {string}
              */
             readonly type: "emergency_stop";
+        };
+        /**
+         * Guidance
+         * @description What the driver of an arriving car is told.
+         */
+        readonly Guidance: {
+            /**
+             * Arriving
+             * @description A car is on its way in, or has just stopped: show it by itself
+             */
+            readonly arriving: boolean;
+            readonly car: components["schemas"]["GuidedCar"] | null;
+            /** Detail */
+            readonly detail: string;
+            /**
+             * Driver Faces
+             * @description Cars come in nose first, or backwards
+             * @enum {string}
+             */
+            readonly driver_faces: "robot" | "away";
+            /** Headline */
+            readonly headline: string;
+            /**
+             * Max Skew Deg
+             * @description What the plug can follow
+             */
+            readonly max_skew_deg: number;
+            /**
+             * Remedy
+             * @description What to do about a problem; empty without one
+             */
+            readonly remedy: string;
+            /**
+             * Since
+             * Format: date-time
+             * @description Since when in this state
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly since: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            readonly state: "paused" | "searching" | "unreadable" | "lost" | "move" | "stop" | "good" | "thin" | "skewed";
+            /**
+             * Steps
+             * @description What to do, the most important first
+             */
+            readonly steps: readonly components["schemas"]["GuidanceStep"][];
+            readonly zones: components["schemas"]["GuidanceZones"];
+        };
+        /**
+         * GuidanceStep
+         * @description One thing to do.
+         */
+        readonly GuidanceStep: {
+            /**
+             * Direction
+             * @description As the driver sits; up and down cannot be driven
+             * @enum {string}
+             */
+            readonly direction: "forward" | "back" | "left" | "right" | "up" | "down";
+            /**
+             * Distance Mm
+             * @description As measured
+             */
+            readonly distance_mm: number;
+            /**
+             * Shown Cm
+             * @description Rounded so that it does not flicker
+             */
+            readonly shown_cm: number;
+        };
+        /**
+         * GuidanceZones
+         * @description Where a socket may be, from above: corners (x, z) in the base frame [mm].
+         */
+        readonly GuidanceZones: {
+            /**
+             * Good
+             * @description In reach with a margin, inside the regular box
+             */
+            readonly good: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Reachable
+             * @description In reach
+             */
+            readonly reachable: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Stop Z Mm
+             * @description The best place of the socket's face
+             */
+            readonly stop_z_mm: number;
+        };
+        /**
+         * GuidedCar
+         * @description Where the car's socket is now, in the base frame (x along the rail, z out of the wall).
+         */
+        readonly GuidedCar: {
+            /** Correlation Xz */
+            readonly correlation_xz: number;
+            /**
+             * Distance Mm
+             * @description From the camera to the label
+             */
+            readonly distance_mm: number;
+            /**
+             * Margin Mm
+             * @description Inside the good zone, uncertainty taken off; negative outside
+             */
+            readonly margin_mm: number | null;
+            /**
+             * Seen At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly seen_at: string;
+            /**
+             * Sigma X Mm
+             * @description Standard deviation, what is common to all included
+             */
+            readonly sigma_x_mm: number;
+            /** Sigma Z Mm */
+            readonly sigma_z_mm: number;
+            /**
+             * Skew Deg
+             * @description Between the socket's axis and the robot's
+             */
+            readonly skew_deg: number;
+            /** Skew Sigma Deg */
+            readonly skew_sigma_deg: number;
+            /** Still */
+            readonly still: boolean;
+            /**
+             * Turned Deg
+             * @description About the vertical, positive to the driver's right
+             */
+            readonly turned_deg: number;
+            /** Vehicle Id */
+            readonly vehicle_id: string;
+            /** Velocity X Mm S */
+            readonly velocity_x_mm_s: number;
+            /**
+             * Velocity Z Mm S
+             * @description Negative towards the robot
+             */
+            readonly velocity_z_mm_s: number;
+            /** X Mm */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+            /** Z Mm */
+            readonly z_mm: number;
         };
         /**
          * Health
@@ -931,10 +1207,23 @@ export interface components {
             readonly rho3_mm: number;
         };
         /**
+         * Leave
+         * @description Back out of the garage.
+         */
+        readonly Leave: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "leave";
+        };
+        /**
          * Live
          * @description Every live section.
          */
         readonly Live: {
+            /** @default null */
+            readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
             readonly job: components["schemas"]["Job"] | null;
             readonly robot: components["schemas"]["Robot"];
@@ -952,6 +1241,8 @@ export interface components {
          * @description The sections that changed; absent ones did not.
          */
         readonly LiveChanges: {
+            /** @default null */
+            readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
             readonly job?: components["schemas"]["Job"] | null;
             /** @default null */
@@ -1212,6 +1503,28 @@ export interface components {
             readonly started_at: string;
             /** Version */
             readonly version: string;
+        };
+        /**
+         * SimulatedCarNow
+         * @description Where the simulated car really is.
+         */
+        readonly SimulatedCarNow: {
+            /** Moving */
+            readonly moving: boolean;
+            /**
+             * Speed Mm S
+             * @description Forward
+             */
+            readonly speed_mm_s: number;
+            /**
+             * X Mm
+             * @description Of its socket in the base frame
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+            /** Z Mm */
+            readonly z_mm: number;
         };
         /**
          * SnapshotMessage
@@ -1540,6 +1853,35 @@ export interface operations {
                 };
                 content: {
                     readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly getGuidance: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/json": components["schemas"]["Guidance"];
                 };
             };
             /** @description Any other problem */
@@ -2499,6 +2841,95 @@ export interface operations {
                 };
                 content: {
                     readonly "application/json": components["schemas"]["Robot"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly getSimulatedCar: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/json": components["schemas"]["SimulatedCarNow"];
+                };
+            };
+            /** @description Conflict */
+            readonly 409: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other problem */
+            readonly default: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readonly commandSimulatedCar: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                readonly "application/json": components["schemas"]["DriveIn"] | components["schemas"]["DriveOn"] | components["schemas"]["Brake"] | components["schemas"]["Leave"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/json": components["schemas"]["SimulatedCarNow"];
+                };
+            };
+            /** @description Conflict */
+            readonly 409: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            readonly 422: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/problem+json": components["schemas"]["Problem"];
                 };
             };
             /** @description Any other problem */

@@ -16,6 +16,14 @@ export type JobPhase = Schemas["JobPhase"];
 export type JobRequest = Schemas["JobRequest"];
 export type JobPage = Schemas["JobPage"];
 export type Playback = Schemas["Playback"];
+export type Guidance = Schemas["Guidance"];
+export type GuidanceStep = Schemas["GuidanceStep"];
+export type GuidedCar = Schemas["GuidedCar"];
+export type CarCommand =
+  | Schemas["DriveIn"]
+  | Schemas["DriveOn"]
+  | Schemas["Brake"]
+  | Schemas["Leave"];
 export type Problem = Schemas["Problem"];
 export type Vehicle = Schemas["Vehicle"];
 export type VehicleList = Schemas["VehicleList"];

@@ -18,6 +18,7 @@ export function merge(live: Live, changes: DeltaMessage["changes"]): Live {
     station: changes.station ?? live.station,
     service: changes.service ?? live.service,
     twin: changes.twin ?? live.twin ?? {},
+    guidance: changes.guidance ?? live.guidance ?? null,
   };
 }
 

@@ -1,0 +1,61 @@
+"""What the simulated car can be told; there is none before a real camera."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from server.schema.base import Wire
+
+Way = Annotated[float, Field(ge=-2000, le=2000, allow_inf_nan=False)]
+
+
+class DriveIn(Wire):
+    """Come in from outside and stop at the place, or as near to it as the driver manages."""
+
+    type: Literal["drive_in"] = "drive_in"
+    from_mm: Annotated[
+        float, Field(ge=100, le=6000, allow_inf_nan=False, description="How far before its place")
+    ] = 3500.0
+    right_mm: Way = Field(0.0, description="How far beside its way the socket is then")
+    heading_deg: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = Field(
+        0.0, description="How the car is turned then, positive to the left"
+    )
+    past_mm: Way = Field(0.0, description="Stop beyond the place, or short of it if negative")
+    aims_right_mm: Way = Field(0.0, description="The driver misjudges the place by so much")
+
+
+class DriveOn(Wire):
+    """Go on so far from where the car is, back if negative."""
+
+    type: Literal["drive_on"] = "drive_on"
+    forward_mm: Annotated[float, Field(ge=-4000, le=4000, allow_inf_nan=False)]
+    steer_right_mm: Way | None = Field(
+        None, description="Steer to a line so far beside the last one; null goes straight"
+    )
+
+
+class Brake(Wire):
+    """Stop now."""
+
+    type: Literal["brake"] = "brake"
+
+
+class Leave(Wire):
+    """Back out of the garage."""
+
+    type: Literal["leave"] = "leave"
+
+
+CarCommand = Annotated[DriveIn | DriveOn | Brake | Leave, Field(discriminator="type")]
+
+
+class SimulatedCarNow(Wire):
+    """Where the simulated car really is."""
+
+    x_mm: float = Field(description="Of its socket in the base frame")
+    y_mm: float
+    z_mm: float
+    speed_mm_s: float = Field(description="Forward")
+    moving: bool

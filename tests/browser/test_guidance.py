@@ -1,0 +1,158 @@
+"""A driver parks by what a phone shows: the real server, the real page, a simulated car."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import TimeoutError as NotYetError
+
+from server.config.settings import Settings
+from server.jobs.approach import parking_joints
+from tests.browser.chromium import PHONE
+from tests.browser.guidance_scenes import SCENES
+from tests.browser.scenes import SCENES as LIVE
+from tests.browser.stage import Stage
+from tests.support.process import ServerProcess, serving
+
+AXE = Path(__file__).resolve().parents[2] / "web/node_modules/axe-core/axe.min.js"
+MIN_TARGET_PX = 44
+PATIENCE_MS = 90_000
+CARD = ".guidance"
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServerProcess]:
+    """The real server on the simulator; its robot is homed and parked, its car out of sight."""
+    settings = Settings()
+    joints = parking_joints(settings.geometry, settings.park)
+    config = tmp_path_factory.mktemp("guidance") / "plugpilot.toml"
+    config.write_text(
+        "[simulation.parameters.board]\n"
+        "start_homed = true\n"
+        f"start_joints = [{joints.rho1_mm}, {joints.rho2_mm}, {joints.rho3_mm}]\n"
+    )
+    with serving("--config", str(config), "--seed", "2") as running:
+        yield running
+
+
+@pytest.fixture
+def phone(browser: Browser) -> Iterator[Page]:
+    """A phone that may not meet a single script error."""
+    context = browser.new_context(
+        viewport={"width": PHONE["width"], "height": PHONE["height"]},
+        has_touch=True,
+        is_mobile=True,
+        reduced_motion="reduce",
+    )
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    yield page
+    context.close()
+    assert errors == []
+
+
+def _picture(page: Page, name: str) -> None:
+    """Keep a picture for people, where somebody asks for one."""
+    folder = os.environ.get("PLUGPILOT_TEST_PICTURES")
+    if folder:
+        page.screenshot(path=Path(folder) / f"guidance-{name}.png")
+
+
+def _tell(client: httpx.Client, **order: object) -> dict[str, Any]:
+    answer = client.post("/simulation/car", json=order)
+    answer.raise_for_status()
+    now: dict[str, Any] = answer.json()
+    return now
+
+
+def test_a_driver_parks_by_the_phone(phone: Page, server: ServerProcess) -> None:
+    with httpx.Client(base_url=f"{server.url}/api/v1", timeout=20) as client:
+        _tell(client, type="drive_in", from_mm=3000, past_mm=25)
+        phone.goto(server.url)
+        number = phone.locator(f"{CARD} .order-number strong")
+        number.wait_for(timeout=PATIENCE_MS)  # the card shows itself
+        expect(phone.locator(f"{CARD} .order-way")).to_have_text("forward")
+        first_cm = float(number.inner_text())
+        _picture(phone, "arriving")
+
+        state = phone.locator(f"{CARD} [data-state=stop]")
+        state.wait_for(timeout=PATIENCE_MS)
+        _tell(client, type="brake")
+        _picture(phone, "stop")
+        assert first_cm > 20 or phone.locator(f"{CARD} .order-unit").inner_text() == "m"
+
+        good = phone.locator(f"{CARD} [data-state=good]")
+        for _ in range(8):  # as told, to and fro, until it is enough
+            try:
+                good.wait_for(timeout=6_000)
+                break
+            except NotYetError:
+                guidance = client.get("/guidance").json()
+                ways = {s["direction"]: s["distance_mm"] for s in guidance["steps"]}
+                forward = ways.get("forward", 0) - ways.get("back", 0)
+                _picture(phone, "correcting")
+                _tell(client, type="drive_on", forward_mm=forward)
+        expect(phone.locator(f"{CARD} .order-word")).to_have_text("Stop here")
+        _picture(phone, "good")
+        expect(phone.locator(f"{CARD} [aria-live=polite]")).to_contain_text("Stop here")
+
+        truth = client.get("/simulation/car").json()
+        seen = client.get("/guidance").json()["car"]
+        assert abs(seen["x_mm"] - truth["x_mm"]) < 1.5
+        assert abs(seen["z_mm"] - truth["z_mm"]) < 1.5
+
+
+def test_the_page_s_own_pedals_drive_the_simulated_car(phone: Page, server: ServerProcess) -> None:
+    phone.goto(server.url)
+    card = phone.locator(CARD)
+    toggle = card.get_by_role("button", name="Parking guidance")
+    if toggle.count():
+        toggle.tap()
+    card.get_by_role("button", name="Drive in").tap()
+    card.locator(".car-above").wait_for(timeout=PATIENCE_MS)
+    card.get_by_role("button", name="Brake").tap()
+    card.get_by_role("button", name="Leave").tap()
+    expect(card.locator(".car-above")).to_have_count(0, timeout=PATIENCE_MS)
+    with httpx.Client(base_url=f"{server.url}/api/v1") as client:
+        assert client.get("/simulation/car").json()["z_mm"] > 800
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_state_is_accessible_and_to_be_read_at_a_glance(
+    phone: Page, stage: Stage, address: str, scheme: str
+) -> None:
+    phone.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+    for name, guidance in SCENES.items():
+        stage.live = LIVE["ready"].model_copy(update={"guidance": guidance})
+        phone.goto(address)
+        order = phone.locator(f"{CARD} .order")
+        order.wait_for()
+        assert _violations(phone) == [], name
+        for button in phone.locator(f"{CARD} button").all():
+            box = button.bounding_box()
+            assert box is not None
+            assert min(box["width"], box["height"]) >= MIN_TARGET_PX
+        assert phone.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+        seen = order.bounding_box()
+        assert seen is not None
+        assert seen["y"] >= 0
+        if guidance.state != "paused":
+            drawing = phone.locator(f"{CARD} .top-view").bounding_box()
+            assert drawing is not None
+            assert drawing["y"] + drawing["height"] <= PHONE["height"], "no scrolling while driving"
+
+
+def _violations(page: Page) -> list[str]:
+    """Rules of axe that the page breaks, with the elements."""
+    if not AXE.exists():
+        pytest.skip("needs axe-core: run `npm ci` in web/")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found: list[dict[str, Any]] = page.evaluate("() => axe.run().then((r) => r.violations)")
+    return [f"{each['id']}: {[node['html'] for node in each['nodes']]}" for each in found]
