@@ -39,7 +39,7 @@ class SimulatedStation:
     @property
     def capabilities(self) -> StationCapabilities:
         """It can do everything."""
-        return StationCapabilities(switches=True, holds=True, unlocks=True)
+        return StationCapabilities(switches=True, holds=True, unlocks=True, limits_current=True)
 
     async def open(self) -> None:
         """Connect to the station."""
@@ -91,6 +91,14 @@ class SimulatedStation:
         """
         self._require_open()
         await self._answer(self._point.unlock)
+
+    async def limit_current(self, current_a: float) -> None:
+        """Let the car draw no more than this from each phase [A]."""
+        self._require_open()
+        await self._answer(lambda: self._point.limit(current_a))
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """It only answers, and so never calls ``listener``."""
 
     # --- fault injection ---------------------------------------------------------------------
 
