@@ -222,7 +222,7 @@ class SimulatedWorld:
         return (state.contact.force_n + friction_n) * self._force_scale
 
     def pushes_tight(self, state: PlantState) -> bool:
-        """The slide has come to rest against a force near its limit, so it was seen to slow down."""
+        """The slide was seen to slow down: it rests against a force near its limit."""
         load_n = abs(state.contact.force_n) + self.parameters.drives.friction_n
         return load_n * self._force_scale >= TIGHT_SHARE * self._force_limit_n
 
