@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
 from server.config.camera import CameraSettings
+from server.config.charge_point import ChargePointSettings
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
@@ -17,6 +18,7 @@ from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
+from server.config.webhooks import WebhookSettings
 from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
@@ -52,6 +54,8 @@ class Settings(BaseSettings):
     insertion: InsertionSettings = InsertionSettings()
     park: ParkSettings = ParkSettings()
     recordings: RecordingSettings = RecordingSettings()
+    charge_point: ChargePointSettings = ChargePointSettings()
+    webhooks: WebhookSettings = WebhookSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
 
