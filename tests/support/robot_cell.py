@@ -11,6 +11,7 @@ from drivers.camera import pi_camera_v2
 from drivers.robot import RobotState
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.parameters import SimulationParameters
+from server.config.supervision import SupervisionSettings
 from server.control.jog import Jog
 from server.control.model import Holder, PlugState, RobotMode
 from server.control.plug_guard import PlugRecord
@@ -113,7 +114,16 @@ async def robot_cell(
         GEOMETRY, LIMITS, CameraMount(), pi_camera_v2(), numbers or parameters(), seed=seed
     )
     store = store or MemoryPlug()
-    supervisor = Supervisor(garage.robot, GEOMETRY, LIMITS, store, Calendar())
+    await garage.station.open()
+    supervisor = Supervisor(
+        garage.robot,
+        GEOMETRY,
+        LIMITS,
+        store,
+        Calendar(),
+        station=garage.station,
+        settings=SupervisionSettings(),
+    )
     cell = RobotCell(garage, supervisor, Jog(supervisor), store)
 
     def keep() -> None:
