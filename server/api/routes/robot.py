@@ -21,34 +21,38 @@ def _now(services: Services) -> Robot:
     return robot_view(services.supervisor, services.runner.socket, services.calendar)
 
 
-@router.get("", operation_id="getRobot")
+@router.get("", operation_id="getRobot", summary="Read the robot")
 async def get_robot(services: ServicesDep) -> Robot:
     """The robot now."""
     return _now(services)
 
 
-@router.post("/stop", operation_id="stopRobot")
+@router.post("/stop", operation_id="stopRobot", summary="Stop")
 async def stop(services: ServicesDep) -> Robot:
     """Protective stop (category 2 of IEC 60204-1), in force until reset. Never refused."""
     await services.supervisor.stop()
     return _now(services)
 
 
-@router.post("/estop", operation_id="emergencyStopRobot")
+@router.post("/estop", operation_id="emergencyStopRobot", summary="Emergency stop")
 async def emergency_stop(services: ServicesDep) -> Robot:
     """Emergency stop (category 1), latched until reset. Never refused."""
     await services.supervisor.emergency_stop()
     return _now(services)
 
 
-@router.post("/reset", operation_id="resetRobot", responses=_REFUSALS)
+@router.post(
+    "/reset", operation_id="resetRobot", summary="Release stops and faults", responses=_REFUSALS
+)
 async def reset(services: ServicesDep) -> Robot:
     """Release stop, emergency stop and fault. Nothing moves by itself afterwards."""
     await services.supervisor.reset()
     return _now(services)
 
 
-@router.post("/enable", operation_id="enableRobot", responses=_REFUSALS)
+@router.post(
+    "/enable", operation_id="enableRobot", summary="Switch the drives on", responses=_REFUSALS
+)
 async def enable(services: ServicesDep) -> Robot:
     """Switch the drives on."""
     async with services.supervisor.control("jog", "A technician") as lease:
@@ -56,7 +60,9 @@ async def enable(services: ServicesDep) -> Robot:
     return _now(services)
 
 
-@router.post("/disable", operation_id="disableRobot", responses=_REFUSALS)
+@router.post(
+    "/disable", operation_id="disableRobot", summary="Switch the drives off", responses=_REFUSALS
+)
 async def disable(services: ServicesDep) -> Robot:
     """Switch the drives off."""
     async with services.supervisor.control("jog", "A technician") as lease:
@@ -64,7 +70,9 @@ async def disable(services: ServicesDep) -> Robot:
     return _now(services)
 
 
-@router.post("/home", operation_id="homeRobot", responses=_REFUSALS)
+@router.post(
+    "/home", operation_id="homeRobot", summary="Find the zero of each axis", responses=_REFUSALS
+)
 async def home(services: ServicesDep) -> Robot:
     """Find the zero of each axis; answers when it is done."""
     async with services.supervisor.control("homing", "Homing") as lease:
@@ -72,7 +80,12 @@ async def home(services: ServicesDep) -> Robot:
     return _now(services)
 
 
-@router.post("/jog", operation_id="jogRobot", responses=problem_responses(409, 422, 503))
+@router.post(
+    "/jog",
+    operation_id="jogRobot",
+    summary="Move one step",
+    responses=problem_responses(409, 422, 503),
+)
 async def jog(step: JogStep, services: ServicesDep) -> Robot:
     """One step of one axis; answers when it is done. Held motion goes over the WebSocket."""
     await services.jog.step(step.axis, step.distance_mm, step.speed_mm_s)
@@ -80,7 +93,10 @@ async def jog(step: JogStep, services: ServicesDep) -> Robot:
 
 
 @router.post(
-    "/plug-confirmation", operation_id="confirmPlug", responses=problem_responses(409, 422)
+    "/plug-confirmation",
+    operation_id="confirmPlug",
+    summary="Confirm that the plug is out",
+    responses=problem_responses(409, 422),
 )
 async def confirm_plug(confirmation: PlugConfirmation, services: ServicesDep) -> Robot:
     """A person has looked and says that the plug is out of the car."""
