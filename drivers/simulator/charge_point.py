@@ -36,6 +36,7 @@ class ChargePoint:
         self.held = False
         self.locked = False
         self.on_idle: Callable[[], None] = lambda: None
+        self.on_contactor: Callable[[bool], None] = lambda _closed: None
         world.on_connection(self._connection_changed)
 
     # --- commands ----------------------------------------------------------------------------
@@ -100,6 +101,11 @@ class ChargePoint:
             return PilotState.A
         return PilotState.C if self._ramp is not None or self._closing else PilotState.B
 
+    @property
+    def contactor_closed(self) -> bool:
+        """The power contacts are closed."""
+        return self._ramp is not None
+
     def snapshot(self) -> StationSnapshot:
         """What the station measures at this moment."""
         now_s = self._now()
@@ -136,6 +142,7 @@ class ChargePoint:
     def _close_contactor(self) -> None:
         self._closing = None
         self._give_power(from_w=0.0)
+        self.on_contactor(True)
 
     def _give_power(self, from_w: float) -> None:
         """Ramp from one power to what limit and cable allow, until the car is full."""
@@ -160,6 +167,7 @@ class ChargePoint:
             return
         self._count_energy(self._ramp)
         self._ramp = None
+        self.on_contactor(False)
         if self._full is not None:
             self._full.cancel()
             self._full = None
@@ -190,7 +198,7 @@ class ChargePoint:
         self._lock(locked=False)
 
     def _lock(self, *, locked: bool) -> None:
-        if self.locked != locked:
+        if self.locked != locked and self._numbers.car_locks:
             self.locked = locked
             self._world.lock_connector(locked=locked, now_s=self._now())
 

@@ -6,11 +6,13 @@ import asyncio
 import contextlib
 from datetime import timedelta
 
-from drivers.station import PilotState, StationError, StationSnapshot
+from drivers.station import StationError, StationSnapshot
 from server.control.errors import StationUnsafeError
 from server.jobs.context import JobContext
+from server.jobs.errors import CarGoneError
 from server.jobs.model import JobPhase
-from server.jobs.plugging.power_off import end_hold
+from server.jobs.plugging.charging_watch import ChargingWatch
+from server.jobs.plugging.power_off import end_hold, forbid_power
 
 POLL_S = 1.0
 CAR_DECIDES_S = 30.0
@@ -18,7 +20,6 @@ CAR_DECIDES_S = 30.0
 no more."""
 STANDBY_W = 50.0
 """A charging car draws 1.4 kW or more (6 A); what is below is a meter's noise or a heater."""
-SILENCE_LIMIT_S = 60.0
 KEEP_PERIOD_S = 60.0
 """How often the energy so far is kept: what a restart may take away of it."""
 
@@ -29,7 +30,8 @@ async def run(job: JobContext) -> None:
     """Charge, or go on charging; returns when the charging should end.
 
     Raises:
-        StationUnsafeError: the station reports a fault, or has been silent for a minute.
+        StationUnsafeError: the station reports a fault, or has been silent for too long.
+        CarGoneError: the station lost the car, or the plug has moved; the power is off.
     """
     await job.journal.begin(JobPhase.CHARGING, "Charging.")
     if job.finish.is_set():
@@ -44,7 +46,11 @@ async def run(job: JobContext) -> None:
     except StationError as error:
         raise StationUnsafeError(str(error)) from error
     energy_before_wh = await _energy_before_wh(job, first)
-    reason = await _until_done(job, energy_before_wh)
+    try:
+        reason = await _until_done(job, energy_before_wh)
+    except CarGoneError:
+        await forbid_power(job.station)
+        raise
     await job.journal.note("charging_done", reason)
 
 
@@ -54,13 +60,7 @@ async def suspend(job: JobContext) -> None:
     Raises:
         StationUnsafeError: the station does not answer.
     """
-    try:
-        if job.station.capabilities.switches:
-            await job.station.stop()
-        if job.station.capabilities.holds:
-            await job.station.hold()
-    except StationError as error:
-        raise StationUnsafeError(str(error)) from error
+    await forbid_power(job.station)
 
 
 async def _energy_before_wh(job: JobContext, first: StationSnapshot) -> float:
@@ -81,7 +81,8 @@ async def _energy_before_wh(job: JobContext, first: StationSnapshot) -> float:
 
 async def _until_done(job: JobContext, energy_before_wh: float) -> str:
     loop = asyncio.get_running_loop()
-    heard_s = hungry_s = kept_s = loop.time()
+    hungry_s = kept_s = loop.time()
+    watch = ChargingWatch(job, heard_s=loop.time())
     while True:
         if await _finish_wanted(job):
             return ENDED_BY_HAND
@@ -90,13 +91,10 @@ async def _until_done(job: JobContext, energy_before_wh: float) -> str:
         try:
             snapshot = await job.station.snapshot()
         except StationError as error:
-            if loop.time() - heard_s > SILENCE_LIMIT_S:
-                raise StationUnsafeError(
-                    f"The charging station has been silent for {SILENCE_LIMIT_S:.0f} s: {error}"
-                ) from error
+            await watch.check(None, loop.time(), str(error))
             continue
         heard_s = loop.time()
-        _refuse_fault(snapshot)
+        await watch.check(snapshot, heard_s)
         if snapshot.power_w > STANDBY_W or _is_kept_from_charging(job, snapshot):
             hungry_s = heard_s
         energy_wh = snapshot.session_energy_wh - energy_before_wh
@@ -131,11 +129,3 @@ async def _finish_wanted(job: JobContext) -> bool:
         async with asyncio.timeout(POLL_S):
             await job.finish.wait()
     return job.finish.is_set()
-
-
-def _refuse_fault(snapshot: StationSnapshot) -> None:
-    if snapshot.pilot in {PilotState.E, PilotState.F}:
-        raise StationUnsafeError(
-            f"The charging station reports a fault (state {snapshot.pilot.value}).",
-            pilot=snapshot.pilot.value,
-        )
