@@ -14,6 +14,9 @@ Point = tuple[float, float, float]
 Curve = Sequence[tuple[float, float]]
 """(Depth [mm], force [N]) along one insertion or withdrawal."""
 
+ALONE_MM = 2.0
+"""Around a depth without neighbours this much counts."""
+
 
 class ForceBand:
     """Smallest and largest force over depth, linear between points and constant outside.
@@ -93,6 +96,7 @@ def learn_band(
 
 def _windows(depths_mm: Sequence[float]) -> list[tuple[float, float]]:
     """Each depth with half the way to its nearest neighbour."""
-    gaps = [b - a for a, b in pairwise(depths_mm)] or [2.0]
-    nearest = [min(a, b) for a, b in zip([gaps[0], *gaps], [*gaps, gaps[-1]], strict=True)]
+    gaps = [b - a for a, b in pairwise(depths_mm)]
+    first, last = (gaps[0], gaps[-1]) if gaps else (ALONE_MM, ALONE_MM)
+    nearest = [min(a, b) for a, b in zip([first, *gaps], [*gaps, last], strict=True)]
     return [(depth, gap / 2) for depth, gap in zip(depths_mm, nearest, strict=True)]

@@ -5,12 +5,14 @@ from __future__ import annotations
 import asyncio
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drivers.simulator.world import SimulatedWorld
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
 from server.schema.vehicles import Vehicle
 from server.services import Services
+from twin.kinematics import gamma
 
 PICTURE_S = 0.05
 SIGMA_MM = 0.02
@@ -40,14 +42,30 @@ class KnowingEye(Eye):
 
     async def _see(self, duration_s: float, *, still: bool) -> SocketPose:
         await asyncio.sleep(duration_s)
+        now_s = asyncio.get_running_loop().time()
         car = self._world.car
+        shift_mm = self._error_mm(now_s)
+        T_base_socket, T_base_label = car.T_base_socket.copy(), car.T_base_label.copy()
+        T_base_socket[:3, 3] += shift_mm
+        T_base_label[:3, 3] += shift_mm
         return SocketPose(
-            T_base_socket=car.T_base_socket.copy(),
-            T_base_label=car.T_base_label.copy(),
+            T_base_socket=T_base_socket,
+            T_base_label=T_base_label,
             covariance=np.eye(3) * SIGMA_MM**2,
-            measured_at_s=asyncio.get_running_loop().time(),
+            measured_at_s=now_s,
             from_standstill=still,
         )
+
+    def _error_mm(self, now_s: float) -> NDArray[np.float64]:
+        """Where the robot believes its plug to be, from where it is.
+
+        A camera on the platform sees what lies before it, so sag and errors of the build drop out.
+        """
+        believed = gamma.forward(self._geometry, self._telemetry.joints_at(now_s))
+        shift: NDArray[np.float64] = (
+            np.array(believed) - self._world.truth(now_s).T_base_plug[:3, 3]
+        )
+        return shift
 
 
 def let_it_know(services: Services) -> None:

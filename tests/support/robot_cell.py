@@ -108,6 +108,7 @@ async def robot_cell(
     store: MemoryPlug | None = None,
     enabled: bool = True,
     seed: int = 1,
+    settings: SupervisionSettings | None = None,
 ) -> AsyncIterator[RobotCell]:
     """A running supervisor."""
     garage = build_garage(
@@ -122,7 +123,7 @@ async def robot_cell(
         store,
         Calendar(),
         station=garage.station,
-        settings=SupervisionSettings(),
+        settings=settings or SupervisionSettings(),
     )
     cell = RobotCell(garage, supervisor, Jog(supervisor), store)
 
@@ -149,11 +150,14 @@ def in_cell(
     store: MemoryPlug | None = None,
     enabled: bool = True,
     seed: int = 1,
+    settings: SupervisionSettings | None = None,
 ) -> T:
     """Run a scenario in virtual time."""
 
     async def main() -> T:
-        async with robot_cell(numbers, store=store, enabled=enabled, seed=seed) as cell:
+        async with robot_cell(
+            numbers, store=store, enabled=enabled, seed=seed, settings=settings
+        ) as cell:
             return await scenario(cell)
 
     return run_virtual(main())

@@ -10,8 +10,11 @@ import time
 from statistics import median
 
 from tests.campaign.hostile.rounds import Figures, attack_in_one_garage
+from tests.campaign.hostile.witness import Danger
 
 IN_ONE_GARAGE = 20
+ROUNDING_S = 0.005
+SIDEWAYS_MM = 0.05
 BRAKING_S = 0.08
 """From being told to standing still: the way to the board, and 12 mm/s at 400 mm/s^2."""
 
@@ -36,36 +39,49 @@ def main() -> int:
 
 def broken(figures: Figures) -> list[str]:
     """What must never happen, and did."""
-    late = [c for c in figures.closings if c.told_after_s > c.sample_s + 0.005]
-    slow = [c for c in figures.closings if c.still_after_s > c.sample_s + BRAKING_S]
+    dangers = [*figures.closings, *figures.enablings]
+    late = [d for d in dangers if d.told_after_s > d.sample_s + ROUNDING_S]
+    slow = [d for d in dangers if d.still_after_s > d.sample_s + BRAKING_S]
     return [
-        *(f"stopped {1e3 * c.told_after_s:.0f} ms after the contactor closed" for c in late),
-        *(f"stood still {1e3 * c.still_after_s:.0f} ms after the contactor closed" for c in slow),
+        *(f"told to stop only after {1e3 * d.told_after_s:.0f} ms" for d in late),
+        *(f"stood still only after {1e3 * d.still_after_s:.0f} ms" for d in slow),
         *(["a motion began under load"] * figures.begun_under_load),
-        *(["the plug moved sideways in the socket"] * (figures.lateral_mm > 0.05)),
+        *(["the plug moved sideways in the socket"] * (figures.lateral_mm > SIDEWAYS_MM)),
         *figures.lost,
     ]
 
 
 def report(figures: Figures) -> str:
     """The figures as text."""
-    closings = figures.closings
     lines = [
         f"{figures.timings} timings",
-        f"motions of the plug begun in the socket   {figures.begun}",
-        f"  of these under load                     {figures.begun_under_load}",
-        f"contactor closed while the plug moved     {len(figures.closings)}",
-        f"  told to stop after [ms]                 {_spread([c.told_after_s for c in closings])}",
-        f"  stood still after [ms]                  {_spread([c.still_after_s for c in closings])}",
-        f"  one sample of the station [ms]          {_spread([c.sample_s for c in closings])}",
-        f"pilot parted with the contactor closed    {figures.load_breaks}",
-        f"largest sideways motion in the socket     {figures.lateral_mm:.3f} mm",
-        f"ways back that were not found             {len(figures.lost)}",
+        f"motions of the plug begun in the socket        {figures.begun}",
+        f"  of these under load                          {figures.begun_under_load}",
+        *_dangers("station enabled while the plug moved", figures.enablings),
+        *_dangers("contactor closed while the plug moved", figures.closings),
+        f"pilot parted with the contactor closed         {figures.load_breaks}",
+        f"largest sideways motion in the socket [mm]     {figures.lateral_mm:.3f}",
+        f"ways back that were not found                  {len(figures.lost)}",
         "jobs ended with",
         *(f"  {count:5d}  {code}" for code, count in figures.outcomes.most_common()),
         *(f"BROKEN: {what}" for what in broken(figures)),
     ]
     return "\n".join(lines)
+
+
+def _dangers(what: str, dangers: list[Danger]) -> list[str]:
+    return [
+        f"{what:<47}{len(dangers)}",
+        f"  told to stop after [ms]{'':22}{_spread([d.told_after_s for d in dangers])}",
+        f"  stood still after [ms]{'':23}{_spread([d.still_after_s for d in dangers])}",
+        f"  share of one sample of the station{'':11}{_shares(dangers)}",
+    ]
+
+
+def _shares(dangers: list[Danger]) -> str:
+    if not dangers:
+        return "-"
+    return f"worst {max(d.told_after_s / d.sample_s for d in dangers):.2f} of it to being told"
 
 
 def _spread(times_s: list[float]) -> str:

@@ -50,6 +50,9 @@ LASTS_S = {
 }
 """About how long a phase takes: attacks are spread over it."""
 
+WORST_S = {JobPhase.INSERTING: (4.5, 6.0), JobPhase.WITHDRAWING: (0.1, 1.0)}
+"""When the plug moves with the pilot contact made: every other attack comes here."""
+
 
 @dataclass(frozen=True, slots=True)
 class Attack:
@@ -72,12 +75,17 @@ class Attack:
 
 def draw_attack(rng: random.Random, job_type: JobType) -> Attack:
     """An attack on a job of this type."""
-    phase = rng.choice(PHASES[job_type])
+    if rng.random() < 0.5:
+        phase = next(phase for phase in PHASES[job_type] if phase in WORST_S)
+        after_s = rng.uniform(*WORST_S[phase])
+    else:
+        phase = rng.choice(PHASES[job_type])
+        after_s = rng.uniform(0.0, LASTS_S[phase])
     lasts_s = LASTS_S[phase]
     return Attack(
         phase=phase,
         will=Will(
-            after_s=rng.uniform(0.0, lasts_s),
+            after_s=after_s,
             again_after_s=rng.choice([None, rng.uniform(0.01, 2.0)]),
             breaks_holds=rng.random() < 0.7,
         ),

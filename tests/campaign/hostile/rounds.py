@@ -18,7 +18,7 @@ from server.services import Services
 from server.simulation import park_first
 from server.timing import VirtualTimeLoop
 from tests.campaign.hostile.attacks import MISCHIEF, Attack, draw_attack, draw_garage
-from tests.campaign.hostile.witness import Closing, Witness
+from tests.campaign.hostile.witness import Danger, Witness
 from tests.support.knowing_eye import let_it_know
 
 ENDS_WITHIN_S = 400.0
@@ -32,6 +32,7 @@ class Figures:
     Attributes:
         timings: Attacks.
         closings: The contactor closed while the plug was moving in the socket.
+        enablings: The station was enabled while the plug was moving with the pilot contact made.
         begun: Motions of the plug that began in the socket.
         begun_under_load: Those that did with a closed contactor.
         load_breaks: The pilot contact parted with a closed contactor.
@@ -41,7 +42,8 @@ class Figures:
     """
 
     timings: int = 0
-    closings: list[Closing] = field(default_factory=list)
+    closings: list[Danger] = field(default_factory=list)
+    enablings: list[Danger] = field(default_factory=list)
     begun: int = 0
     begun_under_load: int = 0
     load_breaks: int = 0
@@ -53,6 +55,7 @@ class Figures:
         """Take in those of other rounds."""
         self.timings += other.timings
         self.closings += other.closings
+        self.enablings += other.enablings
         self.begun += other.begun
         self.begun_under_load += other.begun_under_load
         self.load_breaks += other.load_breaks
@@ -93,9 +96,13 @@ async def _attack(seed: int, timings: int) -> Figures:
             figures.timings += 1
             figures.outcomes[job.error.code if job.error else "done"] += 1
             await witness.done()
-            await _make_good(services, job, job_type, figures, seed)
+            try:
+                await _make_good(services, job, job_type, figures, seed)
+            except LostPlugError as lost:
+                figures.lost.append(str(lost))
+                break
         truth = services.garage.world.truth()
-    figures.closings = witness.closings
+    figures.closings, figures.enablings = witness.closings, witness.enablings
     figures.begun, figures.begun_under_load = witness.begun, witness.begun_under_load
     figures.load_breaks = truth.load_breaks
     figures.lateral_mm = truth.lateral_violation_mm
@@ -157,8 +164,7 @@ async def _make_good(
     if job.error is not None and supervisor.plug.state is not PlugState.PARKED:
         again = await _carry_out(services, JobType.UNPLUG)
         if again.error is not None:
-            figures.lost.append(f"seed {seed}, timing {figures.timings}: {again.error.detail}")
-            raise LostPlugError(figures.lost[-1])
+            raise LostPlugError(f"seed {seed}, timing {figures.timings}: {again.error.detail}")
     if wanted_in and not _is_in(services):
         await services.garage.station.release()
         again = await _carry_out(services, JobType.PLUG_IN)

@@ -18,8 +18,8 @@ BRAKING_S = 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class Closing:
-    """The contactor closed while the plug was moving in the socket.
+class Danger:
+    """The contactor closed, or the station was enabled, while the plug was moving in the socket.
 
     Attributes:
         depth_mm: Where the plug was.
@@ -45,14 +45,16 @@ class Witness:
         sample_s: Longest time from one reading of the station to the end of the next.
 
     Attributes:
-        closings: With the plug moving.
+        closings: The contactor closed with the plug moving.
+        enablings: The station was enabled with the plug moving and the pilot contact made.
         begun_under_load: Motions of the plug in the socket that began with a closed contactor.
         begun: All motions of the plug that began in the socket.
     """
 
     garage: SimulatedGarage
     sample_s: float
-    closings: list[Closing] = field(default_factory=list)
+    closings: list[Danger] = field(default_factory=list)
+    enablings: list[Danger] = field(default_factory=list)
     begun_under_load: int = 0
     begun: int = 0
 
@@ -60,7 +62,7 @@ class Witness:
         self._told_at_s = -10.0
         self._looking: set[asyncio.Task[None]] = set()
         world, point = self.garage.world, self.garage.station.point
-        follow, brake = world.follow, world.brake
+        follow, brake, enable = world.follow, world.brake, point.enable
 
         def witnessed_follow(segments: Sequence[Segment], now_s: float) -> None:
             if now_s >= world.line.rests_from_s and self._depth_mm() > 0.0:
@@ -72,8 +74,15 @@ class Witness:
             self._told_at_s = now_s
             brake(now_s, rho3_mm=rho3_mm)
 
+        def witnessed_enable() -> None:
+            was_enabled = point.enabled
+            enable()
+            if point.enabled and not was_enabled and point.connected:
+                self._begin_look(self.enablings)
+
         world.follow = witnessed_follow  # type: ignore[method-assign]
         world.brake = witnessed_brake  # type: ignore[method-assign]
+        point.enable = witnessed_enable  # type: ignore[method-assign]
         point.on_contactor = self._contactor
 
     async def done(self) -> None:
@@ -82,12 +91,16 @@ class Witness:
             await asyncio.wait(self._looking)
 
     def _contactor(self, closed: bool) -> None:
-        if closed and self._moves() and self._depth_mm() > 0.0:
-            task = asyncio.create_task(self._look())
+        if closed:
+            self._begin_look(self.closings)
+
+    def _begin_look(self, dangers: list[Danger]) -> None:
+        if self._moves() and self._depth_mm() > 0.0:
+            task = asyncio.create_task(self._look(dangers))
             self._looking.add(task)
             task.add_done_callback(self._looking.discard)
 
-    async def _look(self) -> None:
+    async def _look(self, dangers: list[Danger]) -> None:
         loop = asyncio.get_running_loop()
         closed_s, speed_mm_s, depth_mm = loop.time(), self._speed_mm_s(), self._depth_mm()
         stopping = 0.0 <= closed_s - self._told_at_s < BRAKING_S
@@ -100,7 +113,7 @@ class Witness:
             told_s = 0.0
         elif self._told_at_s >= closed_s:
             told_s = min(self._told_at_s - closed_s, still_s)
-        self.closings.append(Closing(depth_mm, speed_mm_s, told_s, still_s, self.sample_s))
+        dangers.append(Danger(depth_mm, speed_mm_s, told_s, still_s, self.sample_s))
 
     def _moves(self) -> bool:
         return abs(self._speed_mm_s()) > MOVING_MM_S
