@@ -24,10 +24,14 @@ class KnowingEye(Eye):
     Args:
         eye: Whose place it takes.
         world: Knows where the socket is.
+
+    Attributes:
+        error_mm: It sees the socket so far away from where it is, in the base frame, shape (3,).
     """
 
     def __init__(self, eye: Eye, world: SimulatedWorld) -> None:
         super().__init__(eye._camera, eye.optics, eye.mount, eye._geometry, eye._telemetry)
+        self.error_mm: NDArray[np.float64] = np.zeros(3)
         self._world = world
 
     async def look(self, vehicle: Vehicle, expected: SocketPose | None = None) -> SocketPose | None:
@@ -44,7 +48,7 @@ class KnowingEye(Eye):
         await asyncio.sleep(duration_s)
         now_s = asyncio.get_running_loop().time()
         car = self._world.car
-        shift_mm = self._error_mm(now_s)
+        shift_mm = self._robots_error_mm(now_s) + self.error_mm
         T_base_socket, T_base_label = car.T_base_socket.copy(), car.T_base_label.copy()
         T_base_socket[:3, 3] += shift_mm
         T_base_label[:3, 3] += shift_mm
@@ -56,7 +60,7 @@ class KnowingEye(Eye):
             from_standstill=still,
         )
 
-    def _error_mm(self, now_s: float) -> NDArray[np.float64]:
+    def _robots_error_mm(self, now_s: float) -> NDArray[np.float64]:
         """Where the robot believes its plug to be, from where it is.
 
         A camera on the platform sees what lies before it, so sag and errors of the build drop out.
