@@ -89,8 +89,8 @@ class EventLog:
             while True:
                 missed = list(self._told) if last is None else self.since(last)
                 if missed is None:
+                    last = self._newest_id()  # first: what happens during the yield is no gap
                     yield None
-                    last = self._newest_id()
                     continue
                 for told in missed:
                     last = told.event.id
