@@ -6,12 +6,12 @@
 from __future__ import annotations
 
 import sys
+from unittest.mock import patch
 
-from server import composition
 from server.cli import main
 from tests.campaign.kill.far_drivers import far_devices
 
 if __name__ == "__main__":
     path = sys.argv.pop(1)
-    composition.make_devices = lambda _request: far_devices(path)
-    main()
+    with patch("server.composition.make_devices", lambda _request: far_devices(path)):
+        main()

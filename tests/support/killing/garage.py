@@ -8,12 +8,9 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
-import pytest
 from sqlalchemy.orm import Session
 
 from drivers.registry import Devices
-from drivers.robot import BoardState
-from drivers.simulator.board import SimulatedBoard
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.parameters import SimulationParameters
 from drivers.simulator.truth import GroundTruth
@@ -26,7 +23,7 @@ from server.services import Services
 from server.storage.database import Database
 from server.storage.errors import StorageError
 from tests.support.killing.cords import Cord, CordedCamera, CordedRobot, CordedStation
-from tests.support.killing.ideal_eye import IdealEye
+from tests.support.killing.power import cut_power
 
 Scenario = Callable[[Services], Awaitable[None]]
 
@@ -41,10 +38,9 @@ class ImmortalGarage:
     Args:
         folder: Where they keep their data.
         seed: Of the garage.
-        monkeypatch: Puts the ideal eye in.
     """
 
-    def __init__(self, folder: Path, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    def __init__(self, folder: Path, seed: int) -> None:
         simulation = SimulationSettings(seed=seed, parameters=SimulationParameters.perfect())
         self.settings = Settings(simulation=simulation, recordings=RecordingSettings(enabled=False))
         self.garage: SimulatedGarage = build_garage(
@@ -58,7 +54,6 @@ class ImmortalGarage:
         self._folder = folder
         self._cord = Cord()
         self._killed = asyncio.Event()
-        monkeypatch.setattr(composition, "Eye", IdealEye)
 
     @property
     def dead(self) -> bool:
@@ -135,28 +130,8 @@ class ImmortalGarage:
             raise StorageError("This server is dead.")
 
     def cut_power(self) -> None:
-        """The whole house is dark for a moment: board and station start anew.
-
-        The motors stand where they stood, a little off from what the board remembers; the station
-        has forgotten its hold and gives power to whoever is plugged in, as stations do.
-        """
-        now_s = asyncio.get_running_loop().time()
-        garage, world = self.garage, self.garage.world
-        robot, old = garage.robot, garage.robot._board
-        old.state = BoardState.IDLE  # whatever it was about to do, it does no more
-        state = world.advance(now_s)
-        world.drive_to(state.motors, now_s)
-        for joint, motor_mm in enumerate(state.motors):
-            creep_mm = float(world.streams.power_up.normal(0.0, 0.5))
-            world.renumber(joint, motor_mm + creep_mm, now_s)
-        if robot._board_task is not None:
-            robot._board_task.cancel()
-        robot._board, robot._board_task = SimulatedBoard(world), None
-        robot._linked = False
-        point = garage.station._point
-        point._open_contactor()
-        point.held = False
-        point.enable()
+        """The whole house is dark for a moment."""
+        cut_power(self.garage, asyncio.get_running_loop().time())
 
 
 def cord_database(database: Database, cord: Cord) -> None:
