@@ -99,7 +99,8 @@ def test_vehicles_and_journals_come_in_pages() -> None:
         whole = (await client.get(f"jobs/{job['id']}/events")).json()["items"]
         assert scene.services.runner.newest is not None
         assert scene.services.runner.newest.type is JobType.PLUG_IN
-        pieces, cursor = [], "0"
+        pieces: list[object] = []
+        cursor: str | None = "0"
         while cursor is not None:
             params = {"cursor": cursor, "limit": 3}
             page = (await client.get(f"jobs/{job['id']}/events", params=params)).json()

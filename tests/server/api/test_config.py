@@ -14,7 +14,7 @@ from tests.support.api import on_api, problem
 from tests.support.garage import Scene, on_scene
 
 Client = httpx.AsyncClient
-SECRET = "correct-horse-battery"
+HIDDEN = "correct-horse-battery"
 
 
 async def patch(client: Client, body: object, etag: str = "*") -> httpx.Response:
@@ -23,12 +23,12 @@ async def patch(client: Client, body: object, etag: str = "*") -> httpx.Response
 
 def test_everything_is_shown_but_secrets() -> None:
     station = StationSettings(
-        openevse=OpenevseSettings(url="http://10.0.0.9", password=SecretStr(SECRET))
+        openevse=OpenevseSettings(url="http://10.0.0.9", password=SecretStr(HIDDEN))
     )
 
     async def scenario(_: Scene, client: Client) -> None:
         answer = await client.get("config")
-        assert SECRET not in answer.text
+        assert HIDDEN not in answer.text
         shown = answer.json()
         assert shown["settings"]["station"]["openevse"]["password"] == "**********"  # noqa: S105
         assert set(shown["settings"]) == set(Settings.model_fields)
@@ -71,7 +71,8 @@ def test_what_cannot_be_changes_nothing() -> None:
             {"logging": {"level": "debug"}, "charge_point": {"attempts": "often"}},
         ):
             problem(await patch(client, wrong), 422, "settings_invalid")
-        for nonsense in ([], "x", {"webhooks": 5}, {"webhooks": [1]}):
+        nonsenses: list[object] = [[], "x", {"webhooks": 5}, {"webhooks": [1]}]
+        for nonsense in nonsenses:
             problem(await patch(client, nonsense), 422, "invalid_request")
         assert (await client.get("config")).headers["etag"] == etag
 

@@ -75,14 +75,15 @@ def test_targets_inside_are_refused_with_what_to_do() -> None:
             answer = await client.post("webhooks", json={**HOOK, "url": url})
             document = problem(answer, 422, "target_forbidden")
             assert "allowed_networks" in document["detail"] + document["remedy"]
-        for wrong in (
+        wrongs: list[dict[str, object]] = [
             {"url": "ftp://example.com"},
             {"events": []},
             {"events": ["ping"]},
             {"url": 5},
             {"description": "x" * 201},
             {"secret": "whsec_mine"},
-        ):
+        ]
+        for wrong in wrongs:
             problem(await client.post("webhooks", json={**HOOK, **wrong}), 422, "invalid_request")
 
     on_api(scenario)

@@ -135,7 +135,7 @@ def test_a_job_that_fails_is_tried_again_only_as_often_as_configured() -> None:
         async def nowhere(*_: object, **__: object) -> None:
             return None
 
-        scene.services.runner._eye.look = nowhere  # type: ignore[assignment]
+        scene.services.runner._eye.look = nowhere  # type: ignore[method-assign]
         attempts = scene.services.settings.charge_point.attempts
         for _ in range(attempts):
             assert (await read(client))["cp_state"] == "B"

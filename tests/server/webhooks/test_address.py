@@ -37,7 +37,7 @@ def leads_to(*addresses: str) -> object:
         "192.168.1.7",
         "169.254.169.254",
         "100.64.0.1",
-        "0.0.0.0",
+        "0.0.0.0",  # noqa: S104 - a target here, nothing to bind to
         "224.0.0.1",
         "255.255.255.255",
         "::1",

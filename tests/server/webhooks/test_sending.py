@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from ipaddress import ip_address
+from types import MappingProxyType
 
 import pytest
 from standardwebhooks import Webhook as Verifier
@@ -21,7 +22,9 @@ from tests.support.fake_stations.serving import answering, http
 BODY = '{"type":"ping","id":"1"}'
 
 
-async def attempt(url: str, settings: WebhookSettings = OPEN, **headers: str) -> Outcome:
+async def attempt(
+    url: str, settings: WebhookSettings = OPEN, headers: Mapping[str, str] = MappingProxyType({})
+) -> Outcome:
     sender = HttpSender(lambda: settings)
     try:
         return await sender.send(url, BODY, headers)
@@ -33,7 +36,7 @@ async def test_what_arrives_can_be_verified() -> None:
     secret = new_secret()
     async with receiving() as receiver:
         headers = signed_headers(secret, "event-1", datetime.now(UTC), BODY)
-        outcome = await attempt(f"{receiver.url}/hook?x=1", **headers)
+        outcome = await attempt(f"{receiver.url}/hook?x=1", headers=headers)
         assert outcome == Outcome(204, None)
         (received,) = receiver.received
         assert received.headers["content-type"] == "application/json"

@@ -44,7 +44,7 @@ class Office:
 
     async def add(self, url: str = URL, *events: EventType) -> StoredWebhook:
         wanted = list(events) or ["plug.changed"]
-        return await self.webhooks.add(WebhookSettings(url=url, events=wanted))  # type: ignore[arg-type]
+        return await self.webhooks.add(WebhookSettings(url=url, events=wanted))
 
     def happen(self) -> str:
         event = PlugChanged(
@@ -231,8 +231,8 @@ def test_what_cannot_be_a_webhook_is_refused() -> None:
             with pytest.raises(ForbiddenTargetError):
                 await o.add("http://10.0.0.1/")
             webhook = await o.add()
+            changed = WebhookSettings(url="http://[::1]/", events=["job.ended"])
             with pytest.raises(ForbiddenTargetError):
-                changed = WebhookSettings(url="http://[::1]/", events=["job.ended"])
                 await o.webhooks.change(webhook.id, changed)
             await o.add()
             with pytest.raises(TooManyWebhooksError):
