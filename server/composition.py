@@ -35,6 +35,7 @@ from server.recordings.playbacks import Playbacks
 from server.recordings.recorder import Recorder
 from server.recordings.store import RecordingStore
 from server.schema.live import Service
+from server.schema.problem import problem_from
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
 from server.storage.database import Database
@@ -89,7 +90,12 @@ async def running(
     calendar = Calendar(speed)
     devices = devices or _devices(settings, folder)
     async with contextlib.AsyncExitStack() as stack:
-        database = Database(folder)
+        url = settings.storage.url
+        database = Database(
+            folder,
+            url=url.get_secret_value() if url else None,
+            backups_kept=settings.storage.backups_kept,
+        )
         await database.open()
         stack.push_async_callback(database.close)
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
@@ -99,7 +105,13 @@ async def running(
             await _introduce(devices.world, vehicles)
 
         supervisor = Supervisor(
-            devices.robot, settings.geometry, settings.motion, StoredPlug(database), calendar
+            devices.robot,
+            settings.geometry,
+            settings.motion,
+            StoredPlug(database, folder),
+            calendar,
+            station=devices.station,
+            settings=settings.supervision,
         )
         if devices.followed is not None:
             _let_follow(devices.followed.follower, supervisor)
@@ -285,6 +297,7 @@ def _show(services: Services) -> None:
         ),
     )
     live.add("service", lambda: _service(services))
+    services.database.listen(lambda: live.changed("service", urgent=True))
     live.add("twin", lambda: twin_report(services.divergence.parted, services.calendar))
     services.divergence.listen(lambda _: live.changed("twin", urgent=True))
 
@@ -313,4 +326,5 @@ def _service(services: Services) -> Service:
         speed=services.settings.clock_speed,
         camera_online=services.camera.online,
         started_at=services.started_at,
+        storage=problem_from(problem) if (problem := services.database.problem) else None,
     )

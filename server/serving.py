@@ -18,6 +18,7 @@ from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
+from server.storage.folder_lock import holding
 from server.timing import ScaledTimeLoop
 from twin.scene import TwinHost
 
@@ -64,7 +65,11 @@ def serve(settings: Settings) -> None:
     listener = _listen(settings.server.host, settings.server.port)
     # A real robot keeps real time; a simulated one waits for a machine that is too slow.
     factory = (lambda: ScaledTimeLoop(settings.clock_speed)) if settings.simulated else None
-    with contextlib.closing(listener), asyncio.Runner(loop_factory=factory) as runner:
+    with (
+        contextlib.closing(listener),
+        holding(settings.storage.data_dir),
+        asyncio.Runner(loop_factory=factory) as runner,
+    ):
         runner.run(_serve(settings, listener))
 
 

@@ -6,7 +6,7 @@ import contextlib
 import logging
 import os
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
@@ -22,6 +22,7 @@ _log = logging.getLogger(__name__)
 FOLDER = "backups"
 DAILY = "plugpilot-"
 BEFORE_UPGRADE = "before-upgrade-"
+BEFORE_RESTORE = "before-restore-"
 ENDING = ".sqlite3"
 UNFINISHED = ".part"
 OWNER_ONLY = 0o600
@@ -56,21 +57,40 @@ def back_up(source: Path, target: Path) -> None:
     """
     if not source.is_file():
         raise BackupError(f"There is no database {source}.", file=str(source))
+
+    def fill(part: Path) -> None:
+        with (
+            closing(sqlite3.connect(f"file:{quote(str(source))}?mode=rw", uri=True)) as data,
+            closing(sqlite3.connect(part)) as copy,
+        ):
+            copy_file(data, copy)
+
+    make_backup(target, fill)
+
+
+def make_backup(target: Path, fill: Callable[[Path], None]) -> None:
+    """Make a file that appears under its name only when it is whole and has been read again.
+
+    Args:
+        target: A file that does not exist yet.
+        fill: Makes an SQLite database of the empty file that it is given.
+
+    Raises:
+        BackupError: there is something at the target.
+        StorageError: it cannot be made. Nothing is left there.
+    """
     part = target.with_name(target.name + UNFINISHED)
     with _reserved(target):
         try:
             part.unlink(missing_ok=True)
             os.close(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, OWNER_ONLY))
-            with (
-                closing(sqlite3.connect(f"file:{quote(str(source))}?mode=rw", uri=True)) as data,
-                closing(sqlite3.connect(part)) as copy,
-            ):
-                copy_file(data, copy)
+            fill(part)
+            with closing(sqlite3.connect(part)) as copy:
                 copy.execute("PRAGMA journal_mode = DELETE")  # one file, without a log beside it
             check_backup(part)
             put_in_place(part, target)
         except sqlite3.Error as error:
-            raise from_sqlite(error, f"Copying {source} to {target}") from error
+            raise from_sqlite(error, str(target)) from error
         except OSError as error:
             raise from_system(error, str(target)) from error
         finally:
@@ -100,16 +120,28 @@ def copy_file(source: sqlite3.Connection, target: object) -> None:
 
 
 def check_backup(file: Path) -> None:
-    """Read a copy from end to end.
+    """Read a copy from end to end. Nothing may write it meanwhile.
+
+    Raises:
+        BackupError: it is no database of PlugPilot.
+        StorageError: it is damaged, or cannot be read.
+    """
+    check_file(file, "mode=ro&immutable=1")
+
+
+def check_file(file: Path, how: str = "mode=rw") -> None:
+    """Read a database from end to end, also one that is in use.
+
+    Args:
+        file: Of the database.
+        how: Parameters of SQLite's address of it.
 
     Raises:
         BackupError: it is no database of PlugPilot.
         StorageError: it is damaged, or cannot be read.
     """
     try:
-        # Immutable: nothing else writes it, and nothing is written beside it.
-        uri = f"file:{quote(str(file))}?mode=ro&immutable=1"
-        with closing(sqlite3.connect(uri, uri=True)) as connection:
+        with closing(sqlite3.connect(f"file:{quote(str(file))}?{how}", uri=True)) as connection:
             verdict = connection.execute("PRAGMA integrity_check(1)").fetchone()[0]
             lost = connection.execute("PRAGMA foreign_key_check").fetchone()
             jobs = connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'jobs'").fetchone()
@@ -205,7 +237,7 @@ class Backups:
 
 
 def stamp() -> str:
-    """Now, as part of a file's name."""
+    """Now, in UTC, as part of a file's name."""
     return f"{datetime.now(UTC):%Y-%m-%dT%H%M%S}"
 
 

@@ -106,8 +106,9 @@ class Database:
     def _open(self) -> None:
         try:
             self._home.prepare()
-        except LostDatabaseError as trouble:
-            if not self._home.worked_before:
+        except StorageError as trouble:
+            if not (isinstance(trouble, LostDatabaseError) and self._home.worked_before):
+                self._home.engine.dispose()
                 raise
             self._move_out(trouble)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -13,7 +14,13 @@ from sqlalchemy.exc import DBAPIError
 
 from server.storage.backups import Backups, copy_file
 from server.storage.engines import file_engine
-from server.storage.errors import DatabaseBrokenError, DataFolderError, StorageError
+from server.storage.errors import (
+    DatabaseBrokenError,
+    DataFolderError,
+    DiskError,
+    ReadOnlyError,
+    StorageError,
+)
 from server.storage.trouble import from_database, from_sqlite
 from server.storage.upgrade import is_empty, needs_upgrade, upgrade
 
@@ -73,6 +80,8 @@ class SqliteHome:
                 raise DataFolderError(
                     f"{self.file} cannot be opened: {error.orig}.", file=self.name
                 ) from error
+            if isinstance(trouble, DiskError) and not os.access(self.file.parent, os.W_OK):
+                trouble = ReadOnlyError(trouble.detail, **trouble.context)
             raise trouble from error
         except DatabaseBrokenError as error:
             raise self._offering_backup(error) from error
