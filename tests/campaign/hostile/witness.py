@@ -24,8 +24,9 @@ class Danger:
     Attributes:
         depth_mm: Where the plug was.
         speed_mm_s: Of the slide, positive inwards.
-        told_after_s: Until the board was told to stop; 0 when it was stopping already.
-        still_after_s: Until the plug stood still.
+        told_after_s: Until the board was told to stop, or the danger was over by itself because the
+            pilot contact had parted; 0 when it was stopping already.
+        still_after_s: Until the plug stood still, or the same.
         sample_s: One sample of this station: period, question and answer.
     """
 
@@ -105,7 +106,9 @@ class Witness:
         closed_s, speed_mm_s, depth_mm = loop.time(), self._speed_mm_s(), self._depth_mm()
         stopping = 0.0 <= closed_s - self._told_at_s < BRAKING_S
         give_up_s = closed_s + GIVE_UP_S
-        while self._moves() and loop.time() < give_up_s:  # noqa: ASYNC110 - virtual time
+        point = self.garage.station.point
+        # Nothing tells of these; in virtual time a look costs nothing.
+        while self._moves() and point.connected and loop.time() < give_up_s:  # noqa: ASYNC110
             await asyncio.sleep(LOOK_S)
         still_s = loop.time() - closed_s
         told_s = still_s
