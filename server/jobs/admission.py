@@ -19,6 +19,9 @@ from server.schema.jobs import Job, JobRequest, JobResult
 from server.schema.vehicles import Vehicle
 from server.storage.vehicles import VehicleStore
 
+UNKNOWN_VEHICLE = "unknown"
+"""Id in jobs that pull the plug out of nobody knows which vehicle."""
+
 CAN_BE_MADE_READY = {RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.READY}
 
 
@@ -43,7 +46,7 @@ async def choose_vehicle(
     """Id of the vehicle that a request is about, and what is known about it.
 
     Pulling the plug out needs to know nothing about the vehicle, so unplugging falls back on the
-    vehicle of the newest job, even if that has been forgotten since.
+    vehicle of the newest job, even if that has been forgotten since, and without one on none.
 
     Raises:
         UnknownVehicleError: there is no such vehicle, or none at all.
@@ -59,6 +62,8 @@ async def choose_vehicle(
     if request.type is JobType.UNPLUG and newest is not None:
         return newest.vehicle_id, await vehicles.get(newest.vehicle_id)
     known = await vehicles.all()
+    if request.type is JobType.UNPLUG and len(known) != 1:
+        return UNKNOWN_VEHICLE, None
     if not known:
         raise UnknownVehicleError("No vehicle has been added yet.")
     if len(known) > 1:

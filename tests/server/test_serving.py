@@ -177,13 +177,23 @@ def test_a_configuration_that_cannot_be_read_is_told_in_a_sentence(tmp_path: Pat
     _assert_told_in_words(_run("serve", "--config", "broken.toml", cwd=tmp_path), "broken.toml")
 
 
-def test_a_damaged_database_is_told_in_a_sentence_and_left_alone(tmp_path: Path) -> None:
+def test_a_damaged_database_is_told_and_left_alone_and_the_robot_starts(tmp_path: Path) -> None:
     damaged = tmp_path / "plugpilot.sqlite3"
     damaged.write_text(json.dumps({"this is": "no database"}) * 100)
     before = damaged.read_bytes()
-    run = _run("serve", "--port", "0", "--data-dir", str(tmp_path), cwd=tmp_path)
-    _assert_told_in_words(run, "not a readable SQLite database")
+    with serving(data_dir=tmp_path) as server, _rest(server) as client:
+        health = client.get("health").json()
+        assert health["status"] == "degraded"
+        assert health["components"]["storage"]["status"] == "down"
+        assert "plugpilot restore" in health["components"]["storage"]["detail"]
+        assert client.post("robot/stop").status_code < 300
     assert damaged.read_bytes() == before
+
+
+def test_a_second_server_does_not_take_the_same_folder(tmp_path: Path) -> None:
+    with serving(data_dir=tmp_path):
+        run = _run("serve", "--port", "0", "--data-dir", str(tmp_path), cwd=tmp_path)
+        _assert_told_in_words(run, "Another PlugPilot uses", "--data-dir")
 
 
 def test_a_driver_that_is_not_there_yet_is_told_in_a_sentence(tmp_path: Path) -> None:

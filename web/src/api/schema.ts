@@ -2043,6 +2043,11 @@ export interface components {
              * @example 2026-03-01T18:04:05.120Z
              */
             readonly started_at: string;
+            /**
+             * @description Why nothing can be kept for now; the robot can still be unplugged
+             * @default null
+             */
+            readonly storage?: components["schemas"]["Problem"] | null;
             /** Version */
             readonly version: string;
         };
