@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +15,10 @@ from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
 from server.schema.vehicles import Vehicle
 from server.services import Services
+from tests.support.garage import Scene, on_scene
 from twin.kinematics import gamma
+
+T = TypeVar("T")
 
 PICTURE_S = 0.05
 SIGMA_MM = 0.02
@@ -77,3 +83,19 @@ def let_it_know(services: Services) -> None:
     assert services.garage is not None
     runner = services.runner
     runner._eye = KnowingEye(runner._eye, services.garage.world)
+
+
+def on_knowing_scene(
+    scenario: Callable[[Scene], Awaitable[T]],
+    *,
+    seed: int = 1,
+    folder: Path | None = None,
+    parked: bool = True,
+) -> T:
+    """As ``on_scene``, for scenarios in which nothing depends on pictures."""
+
+    async def knowing(scene: Scene) -> T:
+        let_it_know(scene.services)
+        return await scenario(scene)
+
+    return on_scene(knowing, seed=seed, folder=folder, parked=parked)

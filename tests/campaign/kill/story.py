@@ -20,7 +20,7 @@ from tests.campaign.kill.lives import Life, ServerDiedError, Written, alive, lau
 POLL_S = 0.2
 STORY_S = 600.0
 ENERGY_WH = 25.0
-IN_A_LIFE_S = 45.0
+IN_A_LIFE_S = 30.0
 """Simulated time within which a killed server dies: a whole job with a recovery in it."""
 STARTING_SHARE = 0.1
 """Of servers that are killed before they are ready, ..."""
