@@ -84,6 +84,9 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
     async with running(
         settings, folder=settings.storage.data_dir, twin=twin, wait_for_robot=False
     ) as services:
+        services.running_settings.listen(
+            lambda now: logging.getLogger().setLevel(now.logging.level.upper())
+        )
         app = create_app(lambda: contextlib.nullcontext(services), twin)
         config = _uvicorn_config(app, settings.clock_speed)
         server = _Server(config, _address(listener), when_ready=twin.start)
