@@ -18,11 +18,16 @@ from server.control.errors import (
     ForceLimitError,
     SlideStalledError,
 )
-from server.control.force_curve import ForceCurve
+from server.control.force_curve import SAMPLES, ForceCurve
 from twin.force_band import ForceBand
 
 TOLD_MM = 0.3
 """A set point that went so far within the stall time told the slide to move."""
+
+SLOWEST_MM_S = 1.0
+STEADY_MM_S = 0.5
+"""The band counts only while the slide cruises, over all samples of the median: the force comes
+from the motor's current, and what turns its rotor faster or slower never reaches the plug."""
 
 MOVED_MM = 0.05
 """A slide that went less has not moved: a few counts of its encoder."""
@@ -58,6 +63,7 @@ class PlugWatch:
         self._face_rho3_mm = face_rho3_mm
         self._band = band
         self._recent: deque[RobotState] = deque()
+        self._speeds: deque[float] = deque(maxlen=SAMPLES)
 
     def check(self, state: RobotState) -> None:
         """Take in a sample.
@@ -72,6 +78,7 @@ class PlugWatch:
         rho3_mm = state.measured.position.rho3_mm
         if self.began_rho3_mm is None:
             self.began_rho3_mm = rho3_mm
+        self._speeds.append(state.commanded.velocity.rho3_mm_s)
         point = self.curve.add(rho3_mm - (self._face_rho3_mm or 0.0), state.force_n)
         if point is not None:
             self._judge_force(*point, moves_in=state.commanded.velocity.rho3_mm_s > 0)
@@ -88,7 +95,7 @@ class PlugWatch:
                 **facts,
                 limit_n=self._limit_n,
             )
-        if self._band is None or self._face_rho3_mm is None or depth_mm < 0:
+        if self._band is None or self._face_rho3_mm is None or depth_mm < 0 or not self._cruises():
             return
         lower_n, upper_n = self._band.at(depth_mm)
         too_little, too_much = force_n < lower_n, force_n > upper_n
@@ -108,6 +115,10 @@ class PlugWatch:
                 **facts,
                 limit_n=round(lower_n, 1),
             )
+
+    def _cruises(self) -> bool:
+        slowest_mm_s = min(abs(speed) for speed in self._speeds)
+        return slowest_mm_s > SLOWEST_MM_S and max(self._speeds) - min(self._speeds) < STEADY_MM_S
 
     def _judge_slide(self, state: RobotState) -> None:
         lag_mm = abs(state.commanded.position.rho3_mm - state.measured.position.rho3_mm)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+import math
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 
@@ -21,6 +22,9 @@ from twin.kinematics import gamma
 from twin.motion import plan_straight_line
 
 _log = logging.getLogger(__name__)
+
+BEFORE_FACE_MM = 5.0
+"""So far before the socket the motor is up to speed, and the plug can touch nothing yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +70,7 @@ async def push_in(job: JobContext) -> Push:
     plan = plan_straight_line(geometry, supervisor.limits, at, gamma.forward(geometry, seated))
     hindrance: ControlError | None = None
     try:
-        async with _harder_once_guided(job, way):
+        async with _gently_at_the_mouth(job, way):
             await supervisor.follow(job.lease, plan, watch.check)
     except ControlError as error:
         met_nothing = isinstance(error, ForceBelowBandError)
@@ -84,28 +88,39 @@ def _limit_n(settings: InsertionSettings, curve: ForceCurve) -> float:
 
 
 @contextlib.asynccontextmanager
-async def _harder_once_guided(job: JobContext, way: Corridor) -> AsyncIterator[None]:
+async def _gently_at_the_mouth(job: JobContext, way: Corridor) -> AsyncIterator[None]:
     """Let the board push hard only where the socket guides the plug.
 
-    A plug that misses the opening then meets the panel with little force. If the change of the
-    limit does not reach the board, the plug stops at the lower one.
+    A plug that misses the opening then meets the panel with little force. Before that the motor
+    needs its force to get going. If a change of the limit does not reach the board, the old one
+    stays in force, and the watch over the motion stops it.
     """
     supervisor, settings = job.supervisor, job.settings.insertion
-    guided_mm = way.face_rho3_mm + settings.guide_depth_mm
     softly_n = min(settings.contact_force_limit_n, settings.force_limit_n)
-    await supervisor.set_force_limit(job.lease, softly_n)
+    stages = (
+        (-math.inf, settings.force_limit_n),
+        (-BEFORE_FACE_MM, softly_n),
+        (settings.guide_depth_mm, settings.force_limit_n),
+    )
 
-    async def raise_limit() -> None:
-        state = supervisor.telemetry.require()
-        while state.measured.position.rho3_mm < guided_mm:
-            state = await supervisor.telemetry.next()
-        await supervisor.set_force_limit(job.lease, settings.force_limit_n)
+    def now_n() -> float:
+        rho3_mm = supervisor.telemetry.require().measured.position.rho3_mm
+        depth_mm = rho3_mm - way.face_rho3_mm
+        return next(force_n for from_mm, force_n in reversed(stages) if depth_mm >= from_mm)
 
-    raising = asyncio.create_task(raise_limit(), name="force limit")
+    async def follow_the_depth(force_n: float) -> None:
+        while True:
+            await supervisor.telemetry.next()
+            if now_n() != force_n:
+                force_n = now_n()
+                await supervisor.set_force_limit(job.lease, force_n)
+
+    await supervisor.set_force_limit(job.lease, now_n())
+    following = asyncio.create_task(follow_the_depth(now_n()), name="force limit")
     try:
         yield
     finally:
-        raising.cancel()
-        outcome = (await asyncio.gather(raising, return_exceptions=True))[0]
+        following.cancel()
+        outcome = (await asyncio.gather(following, return_exceptions=True))[0]
         if isinstance(outcome, Exception):
-            _log.warning("the force limit stayed at %.0f N: %s", softly_n, outcome)
+            _log.warning("the force limit of the board could not be changed: %s", outcome)

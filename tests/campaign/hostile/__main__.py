@@ -24,10 +24,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--timings", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0, help="of the first garage")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="end earlier after these")
     options = parser.parse_args()
     logging.disable(logging.CRITICAL)
     figures, began_s, seed = Figures(), time.perf_counter(), options.seed
-    while figures.timings < options.timings:
+    ends_s = began_s + 60 * options.minutes
+    while figures.timings < options.timings and time.perf_counter() < ends_s:
         figures.add(
             attack_in_one_garage(seed, min(IN_ONE_GARAGE, options.timings - figures.timings))
         )

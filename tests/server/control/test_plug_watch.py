@@ -45,7 +45,13 @@ def watch(*, out: bool = False, known: bool = True) -> PlugWatch:
 
 
 def sample(
-    depth_mm: float, force_n: float, at_s: float, *, out: bool = False, lag_mm: float = 0.2
+    depth_mm: float,
+    force_n: float,
+    at_s: float,
+    *,
+    out: bool = False,
+    lag_mm: float = 0.2,
+    speed_mm_s: float = SPEED_MM_S,
 ) -> RobotState:
     sign = -1.0 if out else 1.0
     rho3_mm = FACE_MM + depth_mm
@@ -58,7 +64,7 @@ def sample(
         commanded=replace(
             commanded,
             position=commanded.position._replace(rho3_mm=rho3_mm + sign * lag_mm),
-            velocity=commanded.velocity._replace(rho3_mm_s=sign * SPEED_MM_S),
+            velocity=commanded.velocity._replace(rho3_mm_s=sign * speed_mm_s),
         ),
     )
 
@@ -166,3 +172,19 @@ def test_a_slide_that_is_elsewhere_does_not_follow() -> None:
     error = refused(lagging, watch())
     assert type(error) is FollowingError
     assert error.context["lag_mm"] == 2.5
+
+
+def test_what_brakes_the_rotor_is_no_force_on_the_plug() -> None:
+    """As the real firmware reports it: the force falls while the slide brakes, then swings."""
+    judge = watch()
+    moving = way((d, good_force_n(d)) for d in steps(-5.0, 38.8))
+    check_all(moving, judge)
+    end_s = moving[-1].sampled_at_s
+    for i in range(1, 14):
+        speed_mm_s = max(SPEED_MM_S - i, 0.0)
+        force_n = 40.0 - 4.0 * i
+        state = sample(38.8 + 0.1 * i, force_n, end_s + i * PERIOD_S, speed_mm_s=speed_mm_s)
+        judge.check(state)
+    for i in range(14, 30):
+        force_n = -42.0 if i % 2 else 20.0
+        judge.check(sample(40.1, force_n, end_s + i * PERIOD_S, lag_mm=0.0, speed_mm_s=0.0))
