@@ -19,6 +19,9 @@ _log = logging.getLogger(__name__)
 CHANGEABLE = ("charge_point", "logging", "webhooks")
 """Sections whose users look at the settings each time; no motion and no force depends on them."""
 
+PROTECTING = {("webhooks", "allowed_networks")}
+"""Protects the home from whoever may use the API, so it is not theirs to change."""
+
 Changes = dict[str, dict[str, JsonValue]]
 
 
@@ -69,12 +72,7 @@ class RunningSettings:
             ImpossibleSettingError: they cannot be so; nothing has changed.
             StorageError: they cannot be kept; nothing has changed.
         """
-        for section in patch:
-            if section not in CHANGEABLE:
-                raise FixedSettingError(
-                    f"Only settings in {', '.join(CHANGEABLE)} can be changed, not {section[:40]}.",
-                    changeable=list(CHANGEABLE),
-                )
+        _refuse_fixed(patch)
         async with self._one_at_a_time:
             check(self.current)
             changes = _merged(self._changes, patch)
@@ -88,6 +86,18 @@ class RunningSettings:
         for listener in self._listeners:
             listener(settings)
         return settings
+
+
+def _refuse_fixed(patch: Mapping[str, Mapping[str, JsonValue]]) -> None:
+    for section, wanted in patch.items():
+        if section not in CHANGEABLE:
+            raise FixedSettingError(
+                f"Only settings in {', '.join(CHANGEABLE)} can be changed, not {section[:40]}.",
+                changeable=list(CHANGEABLE),
+            )
+        for key in wanted:
+            if (section, key) in PROTECTING:
+                raise FixedSettingError(f"{section}.{key} is set in the configuration file only.")
 
 
 def _merged(changes: Changes, patch: Mapping[str, Mapping[str, JsonValue]]) -> Changes:

@@ -181,7 +181,7 @@ MODELS: dict[str, Json] = {
 """By the name of the schema."""
 
 BODIES: dict[str, Json] = {
-    "patchConfig": {"webhooks": {"allowed_networks": ["192.168.1.0/24"], "timeout_s": 5}},
+    "patchConfig": {"webhooks": {"timeout_s": 5}, "logging": {"level": "debug"}},
 }
 """Of requests whose body has no schema of its own name, by operation."""
 

@@ -24,7 +24,8 @@ class Configuration(Wire):
     """All settings in force."""
 
     changeable: list[str] = Field(
-        description="Sections that can be changed here; the others are in the configuration file"
+        description="Sections that can be changed here; the others, and "
+        "webhooks.allowed_networks, only in the configuration file"
     )
     settings: dict[str, Section] = Field(
         description="By section, as in the configuration file; secrets are hidden"

@@ -40,7 +40,7 @@ def test_everything_is_shown_but_secrets() -> None:
 def test_a_change_needs_the_newest_version_and_takes_effect() -> None:
     async def scenario(scene: Scene, client: Client) -> None:
         first = (await client.get("config")).headers["etag"]
-        body = {"webhooks": {"max_webhooks": 3, "allowed_networks": ["10.0.0.0/8"]}}
+        body = {"webhooks": {"max_webhooks": 3, "timeout_s": 5}}
         problem(await client.patch("config", json=body), 428, "precondition_required")
         changed = await patch(client, body, first)
         assert changed.status_code == 200, changed.text
@@ -48,12 +48,13 @@ def test_a_change_needs_the_newest_version_and_takes_effect() -> None:
         assert changed.headers["etag"] not in {first, ""}
         problem(await patch(client, body, first), 412, "precondition_failed")
         assert scene.services.running_settings.current.webhooks.max_webhooks == 3
-        hook = {"url": "http://10.0.0.1/", "events": ["job.ended"], "enabled": False}
-        assert (await client.post("webhooks", json=hook)).status_code == 201
+        hook = {"url": "https://93.184.216.34/", "events": ["job.ended"], "enabled": False}
+        statuses = [(await client.post("webhooks", json=hook)).status_code for _ in range(4)]
+        assert statuses == [201, 201, 201, 409]
 
         back = await patch(client, {"webhooks": {"max_webhooks": None}})
         assert back.json()["settings"]["webhooks"]["max_webhooks"] == 20
-        assert back.json()["settings"]["webhooks"]["allowed_networks"] == ["10.0.0.0/8"]
+        assert back.json()["settings"]["webhooks"]["timeout_s"] == 5
 
     on_api(scenario)
 
@@ -63,10 +64,12 @@ def test_what_cannot_be_changes_nothing() -> None:
         etag = (await client.get("config")).headers["etag"]
         for section in ("insertion", "geometry", "robot", "storage", "nonsense", "station"):
             problem(await patch(client, {section: {"x": 1}}), 409, "setting_fixed")
+        opening = {"webhooks": {"timeout_s": 5, "allowed_networks": ["127.0.0.0/8"]}}
+        problem(await patch(client, opening), 409, "setting_fixed")
         for wrong in (
             {"webhooks": {"max_webhooks": 0}},
             {"webhooks": {"max_webhoks": 5}},
-            {"webhooks": {"allowed_networks": ["everything"]}},
+            {"webhooks": {"timeout_s": "a while"}},
             {"logging": {"level": "chatty"}},
             {"logging": {"level": "debug"}, "charge_point": {"attempts": "often"}},
         ):

@@ -939,7 +939,7 @@ export interface components {
         readonly Configuration: {
             /**
              * Changeable
-             * @description Sections that can be changed here; the others are in the configuration file
+             * @description Sections that can be changed here; the others, and webhooks.allowed_networks, only in the configuration file
              */
             readonly changeable: readonly string[];
             /**
@@ -2990,10 +2990,10 @@ export interface operations {
             readonly content: {
                 /**
                  * @example {
+                 *       "logging": {
+                 *         "level": "debug"
+                 *       },
                  *       "webhooks": {
-                 *         "allowed_networks": [
-                 *           "192.168.1.0/24"
-                 *         ],
                  *         "timeout_s": 5
                  *       }
                  *     }
