@@ -19,8 +19,8 @@ from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
-from server.config.webhooks import WebhookSettings
 from server.config.supervision import SupervisionSettings
+from server.config.webhooks import WebhookSettings
 from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
