@@ -14,7 +14,7 @@ from server.jobs.turning_back import TurnBack
 from server.schema.jobs import NeedsPerson
 
 
-class JobInterruption(JobError):
+class JobInterruption(JobError):  # noqa: N818 - it is no error
     """Ends the phases under way; the execution sees to what comes next. Never shown."""
 
     code = "interruption"

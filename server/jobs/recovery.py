@@ -65,7 +65,8 @@ class Evidence:
     Attributes:
         job: As it was written down last.
         history: What its journal says.
-        after_restart: PlugPilot has been restarted; otherwise a person resumes the job.
+        after_restart: PlugPilot has just been restarted; otherwise a person resumes the job.
+        restarted: It has been restarted at some time during the job, so the board saw it die.
         outage: How long ago something was written down.
         plug: Where the plug is, by its record and by what the board says against it.
         fault: What the board has latched.
@@ -74,6 +75,7 @@ class Evidence:
     job: Job
     history: History
     after_restart: bool
+    restarted: bool
     outage: timedelta
     plug: PlugState
     fault: BoardFault | None
@@ -123,7 +125,7 @@ def _why_not_alone(seen: Evidence, way: Way, limits: JobSettings) -> JobInterrup
     """What a person must see before the job goes on this way; None when nothing is open."""
     if way in {Way.NOTHING, Way.STAY_IN}:
         return None
-    if seen.fault is not None and not _is_expected(seen.fault, way, after=seen.after_restart):
+    if seen.fault is not None and not _is_expected(seen.fault, way, restarted=seen.restarted):
         words = words_for(seen.fault)
         return PersonNeeded(
             "robot_fault", f"{words.title}: {seen.fault.detail} {words.remedy} Then resume the job."
@@ -150,9 +152,9 @@ def _why_not_alone(seen: Evidence, way: Way, limits: JobSettings) -> JobInterrup
     return None
 
 
-def _is_expected(fault: BoardFault, way: Way, *, after: bool) -> bool:
+def _is_expected(fault: BoardFault, way: Way, *, restarted: bool) -> bool:
     """Whether the fault tells nothing that a person would have to look for."""
     if fault.code is FaultCode.STALL:
         # A plug that jams on its way in; the withdrawal releases it.
         return way in {Way.UNPLUG, Way.PULL_OUT_FIRST}
-    return after and fault.code in OWN_SILENCE
+    return restarted and fault.code in OWN_SILENCE

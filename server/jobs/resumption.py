@@ -53,6 +53,7 @@ async def _go_on(job: JobContext, *, after_restart: bool) -> None:
         job=journal.job,
         history=await journal.history(),
         after_restart=after_restart,
+        restarted=job.restarted,
         outage=job.calendar.now() - journal.job.updated_at,
         plug=supervisor.plug.state,
         fault=supervisor.fault,
@@ -64,7 +65,7 @@ async def _go_on(job: JobContext, *, after_restart: bool) -> None:
         f"{why} in the phase {interrupted_in.value}. {IN_WORDS[way]}",
         after_restart=after_restart,
     )
-    if after_restart:
+    if job.restarted:
         await supervisor.release_fault(job.lease, *OWN_SILENCE)
     await _carry_on(job, way)
 

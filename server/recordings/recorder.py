@@ -139,13 +139,19 @@ class Recorder:
         trouble = await session.write(lambda: self._pictures.left_out)
         if self._session is session:
             self._session = None
-        self._store.ended()
+        await self._end()
         if trouble is not None:
             await self._note("recording_failed", f"This job is not recorded: {trouble}.")
             return
         if session.full:
             await self._note("recording_full", "The recording is full; the job goes on.")
         self._finished(job_id)
+
+    async def _end(self) -> None:
+        try:
+            await asyncio.to_thread(self._store.ended)
+        except OSError as error:
+            _log.warning("the recording of a restarted job stays in two pieces: %s", error)
 
     async def _note(self, kind: str, message: str) -> None:
         _log.warning("%s", message)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulator.world import SimulatedWorld
+from server.config.settings import Settings
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
 from server.schema.vehicles import Vehicle
@@ -91,6 +92,7 @@ def on_knowing_scene(
     seed: int = 1,
     folder: Path | None = None,
     parked: bool = True,
+    settings: Settings | None = None,
 ) -> T:
     """As ``on_scene``, for scenarios in which nothing depends on pictures."""
 
@@ -98,4 +100,4 @@ def on_knowing_scene(
         let_it_know(scene.services)
         return await scenario(scene)
 
-    return on_scene(knowing, seed=seed, folder=folder, parked=parked)
+    return on_scene(knowing, seed=seed, folder=folder, parked=parked, settings=settings)

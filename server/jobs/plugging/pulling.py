@@ -47,7 +47,10 @@ async def pull_out(job: JobContext) -> ForceCurve:
         else:
             await supervisor.withdraw_home(job.lease)
     except ControlError as error:
-        if not is_resistance(error, settings.withdrawal_force_limit_n):
+        state = supervisor.telemetry.latest
+        knows_place = not known or (state is not None and state.homed)
+        limit_n = settings.withdrawal_force_limit_n
+        if not is_resistance(error, limit_n, knows_place=knows_place):
             raise
         raise _still_locked(job, error, watch, began_mm) from error
     await supervisor.plug.is_free()

@@ -74,7 +74,8 @@ async def push_in(job: JobContext) -> Push:
             await supervisor.follow(job.lease, plan, watch.check)
     except ControlError as error:
         met_nothing = isinstance(error, ForceBelowBandError)
-        if not (met_nothing or is_resistance(error, _limit_n(settings, watch.curve))):
+        limit_n, homed = _limit_n(settings, watch.curve), supervisor.telemetry.require().homed
+        if not (met_nothing or is_resistance(error, limit_n, knows_place=homed)):
             raise
         hindrance = error
     depth_mm = supervisor.telemetry.require().measured.position.rho3_mm - way.face_rho3_mm

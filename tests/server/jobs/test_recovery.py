@@ -53,6 +53,7 @@ def evidence(
         job=A_JOB.model_copy(update={"type": job_type, "phase": phase, **job}),
         history=history,
         after_restart=True,
+        restarted=True,
         outage=timedelta(seconds=20),
         plug=plug,
         fault=BoardFault(FaultCode.HEARTBEAT_LOST, "The host has fallen silent."),
@@ -97,7 +98,7 @@ def test_each_phase_goes_on_by_where_the_plug_is(
     st.booleans(),
     st.booleans(),
 )
-def test_no_way_begins_sideways_with_a_plug_that_may_be_in_a_socket(
+def test_no_way_begins_sideways_with_a_plug_that_may_be_in_a_socket(  # noqa: PLR0917 - a product
     job_type: JobType,
     phase: JobPhase,
     plug: PlugState,
@@ -116,6 +117,7 @@ def test_no_way_begins_sideways_with_a_plug_that_may_be_in_a_socket(
         ),
         fault=None if fault is None else BoardFault(fault, "It says so."),
         after_restart=after_restart,
+        restarted=after_restart,
     )
     try:
         way = decide(seen, LIMITS)
@@ -187,7 +189,7 @@ def test_the_same_phase_is_not_tried_for_ever() -> None:
         decide(evidence(history=history), LIMITS)
     assert decide(evidence(JobPhase.LOCATING, history=history), LIMITS) is Way.PLUG_IN
     # a person who resumes it by hand is not asked again
-    by_hand = replace(evidence(history=history), after_restart=False, fault=None)
+    by_hand = replace(evidence(history=history), after_restart=False)
     assert decide(by_hand, LIMITS) is Way.PLUG_IN
 
 
