@@ -31,10 +31,18 @@ class SupervisionSettings(Section):
         60.0, ge=5, le=600, description="A station may be silent for so long while the car charges"
     )
     following_error_mm: float = Field(
-        2.0, gt=0, le=10, description="The slide may lag so far behind its set point"
+        4.0,
+        gt=0,
+        le=10,
+        description="The slide may lag so far behind its set point; more than the board allows, "
+        "which knows best what has failed",
     )
     stall_s: float = Field(
-        0.06, ge=0.02, le=1, description="A slide that is told to move and does not has stalled"
+        0.25,
+        ge=0.02,
+        le=1,
+        description="A slide that is told to move and does not for so long has stalled; longer "
+        "than the board takes, for the same reason",
     )
     stopping_s: float = Field(
         1.0, ge=0.1, le=5, description="A stopped robot stands still after this time"

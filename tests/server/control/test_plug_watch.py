@@ -168,10 +168,10 @@ def test_a_slide_at_rest_has_not_stalled() -> None:
 
 
 def test_a_slide_that_is_elsewhere_does_not_follow() -> None:
-    lagging = [sample(d, 5.0, i * PERIOD_S, lag_mm=2.5) for i, d in enumerate(steps(0.0, 2.0))]
+    lagging = [sample(d, 5.0, i * PERIOD_S, lag_mm=4.5) for i, d in enumerate(steps(0.0, 2.0))]
     error = refused(lagging, watch())
     assert type(error) is FollowingError
-    assert error.context["lag_mm"] == 2.5
+    assert error.context["lag_mm"] == 4.5
 
 
 def test_what_brakes_the_rotor_is_no_force_on_the_plug() -> None:
