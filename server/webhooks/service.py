@@ -28,6 +28,8 @@ from server.webhooks.signing import new_secret
 
 _log = logging.getLogger(__name__)
 
+NAME_TIMEOUT_S = 5.0
+"""Nobody who makes a webhook waits longer for the name of its target."""
 MAX_UNQUEUED = 1000
 """Events that wait for a slow disk; more are lost, and that is logged."""
 
@@ -202,10 +204,11 @@ class Webhooks:
 
     async def _refuse_forbidden(self, url: str) -> None:
         try:
-            await admit(url, self._settings().allowed_networks)
+            async with asyncio.timeout(NAME_TIMEOUT_S * self._speed):
+                await admit(url, self._settings().allowed_networks)
         except TargetRefusedError as error:
             raise ForbiddenTargetError(str(error)) from error
-        except TargetUnknownError:
+        except (TargetUnknownError, TimeoutError):
             return  # it may come; each attempt looks again
 
     async def _put(self, webhook: StoredWebhook) -> StoredWebhook:

@@ -264,3 +264,18 @@ def test_a_bug_in_the_sender_ends_no_queue(caplog: pytest.LogCaptureFixture) -> 
             assert "a bug" in caplog.text
 
     virtually(scenario)
+
+
+def test_a_name_that_hangs_holds_up_nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def hang(*_: object) -> None:
+        await asyncio.Event().wait()
+
+    async def scenario() -> None:
+        async with office() as o:
+            began_s = asyncio.get_running_loop().time()
+            monkeypatch.setattr("server.webhooks.service.admit", hang)
+            webhook = await o.add("https://slow.example/")
+            assert asyncio.get_running_loop().time() - began_s < 6.0
+            assert (await o.webhooks.get(webhook.id)).settings.enabled
+
+    virtually(scenario)
