@@ -13,7 +13,9 @@ from server.config.settings import Settings
 from server.config.simulation import SimulationSettings
 from server.control.model import PlugState
 from server.jobs.model import JobPhase, JobState, JobType
+from server.localisation.socket_pose import SocketPose
 from server.schema.jobs import Job
+from server.schema.vehicles import Vehicle
 from tests.support.garage import Scene, on_scene
 from tests.support.knowing_eye import KnowingEye, let_it_know
 
@@ -223,7 +225,7 @@ def test_a_station_that_repeats_itself_while_the_car_charges_is_silent() -> None
         await scene.later(5.0)
         began_s = scene.now_s
         scene.garage.station.freeze()
-        await scene.until(lambda: job.id != "" and scene.seen[-1] is not JobPhase.CHARGING)
+        await scene.until(lambda: scene.seen[-1] is not JobPhase.CHARGING)
         assert 60.0 < scene.now_s - began_s < 63.0
         scene.garage.station.behave()
         ended = await scene.ended(job)
@@ -240,8 +242,10 @@ def test_a_stale_picture_is_no_place_to_push_to() -> None:
         assert isinstance(eye, KnowingEye)
         measure = eye.measure
 
-        async def measure_slowly(*args: Any) -> Any:  # noqa: ANN401 - of measure
-            socket = await measure(*args)
+        async def measure_slowly(
+            vehicle: Vehicle, frames: int, expected: SocketPose | None
+        ) -> SocketPose | None:
+            socket = await measure(vehicle, frames, expected)
             assert socket is not None
             if scene.seen[-1] is JobPhase.ALIGNING:
                 return replace(socket, measured_at_s=socket.measured_at_s - 10.0)
