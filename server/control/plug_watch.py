@@ -24,6 +24,9 @@ from twin.force_band import ForceBand
 TOLD_MM = 0.3
 """A set point that went so far within the stall time told the slide to move."""
 
+FOLLOWS = 0.5
+"""Share of the set point's way that a slide makes which follows it."""
+
 SLOWEST_MM_S = 1.0
 STEADY_MM_S = 0.5
 """The band counts only while the slide cruises, over all samples of the median: the force comes
@@ -63,7 +66,7 @@ class PlugWatch:
         self._face_rho3_mm = face_rho3_mm
         self._band = band
         self._recent: deque[RobotState] = deque()
-        self._speeds: deque[float] = deque(maxlen=SAMPLES)
+        self._window: deque[RobotState] = deque(maxlen=SAMPLES)
 
     def check(self, state: RobotState) -> None:
         """Take in a sample.
@@ -78,7 +81,7 @@ class PlugWatch:
         rho3_mm = state.measured.position.rho3_mm
         if self.began_rho3_mm is None:
             self.began_rho3_mm = rho3_mm
-        self._speeds.append(state.commanded.velocity.rho3_mm_s)
+        self._window.append(state)
         point = self.curve.add(rho3_mm - (self._face_rho3_mm or 0.0), state.force_n)
         if point is not None:
             self._judge_force(*point, moves_in=state.commanded.velocity.rho3_mm_s > 0)
@@ -117,8 +120,18 @@ class PlugWatch:
             )
 
     def _cruises(self) -> bool:
-        slowest_mm_s = min(abs(speed) for speed in self._speeds)
-        return slowest_mm_s > SLOWEST_MM_S and max(self._speeds) - min(self._speeds) < STEADY_MM_S
+        """The set point moves steadily, and the slide is seen to move with it.
+
+        A slide that stands against a force is the board's business. It knows whether the slide was
+        seen to push itself tight, or whether its encoder may be dead and the position is lost.
+        """
+        speeds = [state.commanded.velocity.rho3_mm_s for state in self._window]
+        first, last = self._window[0], self._window[-1]
+        told_mm = last.commanded.position.rho3_mm - first.commanded.position.rho3_mm
+        moved_mm = last.measured.position.rho3_mm - first.measured.position.rho3_mm
+        steady = max(speeds) - min(speeds) < STEADY_MM_S
+        moving = min(abs(speed) for speed in speeds) > SLOWEST_MM_S
+        return steady and moving and abs(moved_mm) >= FOLLOWS * abs(told_mm)
 
     def _judge_slide(self, state: RobotState) -> None:
         lag_mm = abs(state.commanded.position.rho3_mm - state.measured.position.rho3_mm)

@@ -188,3 +188,15 @@ def test_what_brakes_the_rotor_is_no_force_on_the_plug() -> None:
     for i in range(14, 30):
         force_n = -42.0 if i % 2 else 20.0
         judge.check(sample(40.1, force_n, end_s + i * PERIOD_S, lag_mm=0.0, speed_mm_s=0.0))
+
+
+def test_a_slide_that_stands_is_left_to_the_board() -> None:
+    """With a dead encoder the force rises as in a jam; only the board can tell the two apart."""
+    judge = watch(out=True)
+    moving = way(((d, -6.0) for d in steps(22.0, 15.0)), out=True)
+    check_all(moving, judge)
+    end = moving[-1]
+    depth_mm = end.measured.position.rho3_mm - FACE_MM
+    for i in range(1, 15):
+        at_s, lag_mm = end.sampled_at_s + i * PERIOD_S, 0.2 + 0.12 * i
+        judge.check(sample(depth_mm, -79.0, at_s, out=True, lag_mm=lag_mm))

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
+from functools import partial
 
 import pytest
 
 from drivers.robot import RobotState
+from drivers.simulator.robot import SimulatedRobot
 from server.config.supervision import SupervisionSettings
 from server.control.errors import (
     ReleaseRefusedError,
@@ -27,11 +30,18 @@ FAR = JointPosition(300.0, 60.0, 50.0)
 
 def make_deaf(cell: RobotCell, *, deaf: bool = True) -> None:
     """The link lives, but no telemetry comes through."""
-    feed = cell.garage.robot._feed
-    if deaf:
-        feed.publish = lambda _: None  # type: ignore[method-assign]
-    else:
-        del feed.publish  # type: ignore[attr-defined]
+    cell.garage.robot._deliver = _drop(cell) if deaf else _deliver(cell)  # type: ignore[method-assign]
+
+
+def _drop(cell: RobotCell) -> Callable[[], None]:
+    def drop() -> None:
+        cell.garage.robot._in_flight.popleft()
+
+    return drop
+
+
+def _deliver(cell: RobotCell) -> Callable[[], None]:
+    return partial(SimulatedRobot._deliver, cell.garage.robot)
 
 
 async def a_motion(cell: RobotCell) -> asyncio.Task[RobotState]:

@@ -63,7 +63,6 @@ def test_a_robot_at_rest_that_creeps_is_named() -> None:
     monitor = StandstillMonitor(SETTINGS)
     monitor.arm(10.0)
     assert monitor.check(sample(10.1, board=BoardState.STOPPING)) is None
-    assert not monitor.at_rest
     assert monitor.check(sample(10.2)) is None
     assert monitor.at_rest
     assert monitor.check(sample(500.0, rho3_mm=60.4)) is None
