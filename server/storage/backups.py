@@ -94,7 +94,8 @@ def make_backup(target: Path, fill: Callable[[Path], None]) -> None:
         except OSError as error:
             raise from_system(error, str(target)) from error
         finally:
-            part.unlink(missing_ok=True)
+            for ending in ("", "-wal", "-shm"):
+                part.with_name(part.name + ending).unlink(missing_ok=True)
 
 
 def copy_file(source: sqlite3.Connection, target: object) -> None:

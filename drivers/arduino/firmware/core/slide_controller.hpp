@@ -27,10 +27,10 @@ class SlideController {
   // Pushing at the cap for so long without a count.
   bool stalled() const { return stuck_ms_ >= numbers_.stall_ms; }
 
-  // Whether a stall is a place where the slide was seen to push itself tight. Whatever stops it gives
-  // way a little first, so its last counts come at nearly the whole force. An encoder that dies, or
-  // a screw that slips, falls silent at the force of the motion before.
-  bool pushed_tight() const { return tight_; }
+  // Whether it pushes hard and the force has grown much since the newest count. Whatever really stops
+  // the slide gives way a little, so counts come up to nearly the whole force. An encoder that dies
+  // falls silent at the force of the motion before, and the slide goes on unseen.
+  bool pushes_unseen() const;
 
   // The cap was in force at the last update.
   bool force_limited() const { return limited_; }
@@ -51,12 +51,12 @@ class SlideController {
   int32_t cap_q8_ = 0;        // PWM that makes force, at most
   int32_t integral_q16_ = 0;  // PWM
   int32_t force_q8_ = 0;      // PWM that makes force
+  int32_t force_at_count_q8_ = 0;  // at the newest count, without its sign
   int32_t last_counts_ = 0;
   int32_t last_rate_ = 0;
   uint16_t stuck_ms_ = 0;
   int16_t pwm_ = 0;
   bool limited_ = false;
-  bool tight_ = false;    // the newest count came at nearly the whole force
   bool holding_ = false;  // it had arrived
   uint8_t stood_ms_ = 0;
 };
