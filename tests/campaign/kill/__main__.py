@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import math
 import sys
 import time
 from collections import Counter
+from itertools import count
 from statistics import median
 
 from tests.campaign.kill.story import Kill, Story, tell
@@ -22,19 +24,14 @@ def main() -> int:
     parser.add_argument("--speed", type=float, default=10.0, help="simulated seconds per second")
     options = parser.parse_args()
     stories: list[Story] = []
-    began_s, seed = time.monotonic(), options.seed
-    while (done := sum(len(story.kills) for story in stories)) < options.kills:
-        left = options.kills - done
-        story = tell(seed, min(KILLS_IN_A_STORY, left), options.speed)
-        stories.append(story)
-        phases = ", ".join(_name(kill) for kill in story.kills)
-        print(
-            f"{seed:4d} {story.kind:8s} killed in {phases or 'no phase'}: {story.outcome}"
-            f"{' asked: ' + ', '.join(story.asked) if story.asked else ''}"
-            f"{' BROKEN: ' + '; '.join(story.broken) if story.broken else ''}",
-            flush=True,
-        )
-        seed += 1
+    began_s = time.monotonic()
+    with contextlib.suppress(KeyboardInterrupt):  # the table of what there is
+        for seed in count(options.seed):
+            left = options.kills - sum(len(story.kills) for story in stories)
+            if left <= 0:
+                break
+            stories.append(tell(seed, min(KILLS_IN_A_STORY, left), options.speed))
+            print(_line(stories[-1]), flush=True)
     print(f"\n{report(stories)}\n{time.monotonic() - began_s:.0f} s")
     return 1 if any(story.broken for story in stories) else 0
 
@@ -43,15 +40,15 @@ def report(stories: list[Story]) -> str:
     """The table."""
     kills = [kill for story in stories for kill in story.kills]
     lines = [f"{'killed in':14s} kills  dark  decided after, median / p95 [s]"]
-    for phase, count in sorted(Counter(kill.phase for kill in kills).items()):
+    for phase, times in sorted(Counter(kill.phase for kill in kills).items()):
         here = [kill for kill in kills if kill.phase == phase]
         dark = sum(kill.dark for kill in here)
-        lines.append(f"{phase or 'not accepted':14s} {count:5d} {dark:5d}  {_times(here)}")
+        lines.append(f"{phase or 'not accepted':14s} {times:5d} {dark:5d}  {_times(here)}")
     lines.append(f"{'all':14s} {len(kills):5d} {sum(k.dark for k in kills):5d}  {_times(kills)}")
     lines.append("")
     lines += [
-        f"{count:5d}  {kind}: {outcome}"
-        for (kind, outcome), count in sorted(
+        f"{times:5d}  {kind}: {outcome}"
+        for (kind, outcome), times in sorted(
             Counter((story.kind, story.outcome) for story in stories).items()
         )
     ]
@@ -60,6 +57,16 @@ def report(stories: list[Story]) -> str:
     broken = [f"seed {story.seed}: {what}" for story in stories for what in story.broken]
     lines.append("broken: " + ("; ".join(broken) or "nothing"))
     return "\n".join(lines)
+
+
+def _line(story: Story) -> str:
+    phases = ", ".join(_name(kill) for kill in story.kills)
+    line = f"{story.seed:4d} {story.kind:8s} killed in {phases or 'no phase'}: {story.outcome}"
+    if story.asked:
+        line += f" asked: {', '.join(story.asked)}"
+    if story.broken:
+        line += f" BROKEN: {'; '.join(story.broken)}"
+    return line
 
 
 def _times(kills: list[Kill]) -> str:
