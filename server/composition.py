@@ -18,6 +18,7 @@ from drivers.station import StationError
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
+from server.config.storage import StorageSettings
 from server.control.jog import DEAD_MAN_S, Jog
 from server.control.path_check import Strength
 from server.control.supervisor import Supervisor
@@ -25,6 +26,7 @@ from server.divergence import DivergenceWatcher
 from server.divergence.report import twin_report
 from server.guidance.guide import Guide
 from server.guidance.view import guidance_view
+from server.integrations import Integrations
 from server.jobs.runner import JobRunner
 from server.labels.key_file import load_label_key
 from server.labels.payload import LabelKey
@@ -38,6 +40,7 @@ from server.recordings.playbacks import Playbacks
 from server.recordings.recorder import Recorder
 from server.recordings.store import RecordingStore
 from server.schema.live import Service
+from server.schema.problem import problem_from
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
 from server.simulated_car import SimulatedCar
@@ -93,9 +96,7 @@ async def running(
     calendar = Calendar(speed)
     devices = devices or _devices(settings, folder)
     async with contextlib.AsyncExitStack() as stack:
-        database = Database(folder)
-        await database.open()
-        stack.push_async_callback(database.close)
+        database = await _opened(settings.storage, folder, stack)
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
@@ -106,8 +107,10 @@ async def running(
             devices.robot,
             settings.geometry,
             settings.motion,
-            StoredPlug(database),
+            StoredPlug(database, folder),
             calendar,
+            station=devices.station,
+            settings=settings.supervision,
             strength=Strength(
                 loads_at_limits(settings.loads, settings.insertion), settings.actuators
             ),
@@ -130,6 +133,8 @@ async def running(
             settings=settings,
             calendar=calendar,
         )
+        integrations = Integrations(database, settings, calendar, speed)
+        await integrations.running_settings.start()
         camera = CameraFeed(devices.camera, CAMERA_PERIOD_S * speed)
         stack.push_async_callback(camera.close)
         live = LiveHub(PUSH_PERIOD_S * speed)
@@ -149,9 +154,13 @@ async def running(
 
         def station_read() -> None:
             recorder.station_changed()
+            charge_point.station_read()
             live.changed("station")
 
         station = StationWatch(devices.station, STATION_PERIOD_S * speed, station_read)
+        charge_point = integrations.charge_point(
+            supervisor=supervisor, runner=runner, station=devices.station, watch=station
+        )
         recordings = RecordingStore(folder, settings.recordings)
         recorder = Recorder(
             store=recordings,
@@ -183,20 +192,46 @@ async def running(
             guide=guide,
             recordings=recordings,
             playbacks=Playbacks(recordings, settings.recordings),
+            running_settings=integrations.running_settings,
+            events=integrations.events,
+            webhooks=integrations.webhooks,
+            charge_point=charge_point,
             twin=twin,
             garage=devices.garage,
             simulated_car=_simulated_car(devices, settings),
         )
         _show(services)
-        await supervisor.start(wait=wait_for_robot)
-        stack.push_async_callback(supervisor.close)
-        await runner.start()
-        stack.push_async_callback(runner.close)
-        await services.station.start()
-        stack.push_async_callback(services.station.close)
-        await guide.start()
-        stack.push_async_callback(guide.close)
+        integrations.tell_events(services)
+        await _start(services, stack, wait_for_robot=wait_for_robot)
         yield services
+
+
+async def _opened(
+    settings: StorageSettings, folder: Path | None, stack: contextlib.AsyncExitStack
+) -> Database:
+    url = settings.url.get_secret_value() if settings.url else None
+    database = Database(folder, url=url, backups_kept=settings.backups_kept)
+    await database.open()
+    stack.push_async_callback(database.close)
+    return database
+
+
+async def _start(
+    services: Services, stack: contextlib.AsyncExitStack, *, wait_for_robot: bool
+) -> None:
+    """Set everything going that does something by itself."""
+    await services.webhooks.start()
+    stack.push_async_callback(services.webhooks.close)
+    await services.charge_point.start()
+    stack.push_async_callback(services.charge_point.close)
+    await services.supervisor.start(wait=wait_for_robot)
+    stack.push_async_callback(services.supervisor.close)
+    await services.runner.start()
+    stack.push_async_callback(services.runner.close)
+    await services.station.start()
+    stack.push_async_callback(services.station.close)
+    await services.guide.start()
+    stack.push_async_callback(services.guide.close)
 
 
 def _devices(settings: Settings, folder: Path | None) -> Devices:
@@ -302,6 +337,7 @@ def _show(services: Services) -> None:
         ),
     )
     live.add("service", lambda: _service(services))
+    services.database.listen(lambda: live.changed("service", urgent=True))
     live.add("twin", lambda: twin_report(services.divergence.parted, services.calendar))
     live.add(
         "guidance", lambda: guidance_view(services.guide, services.settings, services.calendar)
@@ -334,4 +370,5 @@ def _service(services: Services) -> Service:
         speed=services.settings.clock_speed,
         camera_online=services.camera.online,
         started_at=services.started_at,
+        storage=problem_from(problem) if (problem := services.database.problem) else None,
     )

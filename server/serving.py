@@ -19,6 +19,7 @@ from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
+from server.storage.folder_lock import holding
 from server.timing import ScaledTimeLoop
 from twin.scene import TwinHost
 
@@ -65,7 +66,11 @@ def serve(settings: Settings) -> None:
     listener = _listen(settings.server.host, settings.server.port)
     # A real robot keeps real time; a simulated one waits for a machine that is too slow.
     factory = (lambda: ScaledTimeLoop(settings.clock_speed)) if settings.simulated else None
-    with contextlib.closing(listener), asyncio.Runner(loop_factory=factory) as runner:
+    with (
+        contextlib.closing(listener),
+        holding(settings.storage.data_dir),
+        asyncio.Runner(loop_factory=factory) as runner,
+    ):
         runner.run(_serve(settings, listener))
 
 
@@ -83,6 +88,9 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
     async with running(
         settings, folder=settings.storage.data_dir, twin=twin, wait_for_robot=False
     ) as services:
+        services.running_settings.listen(
+            lambda now: logging.getLogger().setLevel(now.logging.level.upper())
+        )
         app = create_app(lambda: contextlib.nullcontext(services), twin)
         config = _uvicorn_config(app, settings.clock_speed)
         server = _Server(config, _address(listener), when_ready=twin.start)

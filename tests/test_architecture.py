@@ -27,7 +27,15 @@ ALLOWED: dict[str, set[str]] = {
     "server.timing": set(),
     "server.config": {"server.config", "server.errors", "drivers", "twin"},
     "server.vision": {"server.vision", "server.errors", "drivers.camera", "twin"},
-    "server.control": {"server.control", "server.errors", "server.timing", "drivers.robot", "twin"},
+    "server.control": {
+        "server.control",
+        "server.errors",
+        "server.timing",
+        "server.config",
+        "drivers.robot",
+        "drivers.station",
+        "twin",
+    },
 }
 """The only parts of the project that a package may import."""
 
@@ -46,6 +54,10 @@ FORBIDDEN: dict[str, set[str]] = {
     "server.jobs": {"server.live", *WIRING, "drivers.simulator"},
     "server.divergence": {"server.live", "server.api", *WIRING, "drivers.simulator"},
     "server.recordings": {"server.api", *WIRING, "drivers.simulator"},
+    "server.events": {"server.api", *WIRING, "drivers.simulator"},
+    "server.webhooks": {"server.api", "server.jobs", "server.control", *WIRING, "drivers"},
+    "server.charge_point": {"server.api", *WIRING, "drivers.simulator"},
+    "server.adjusting": {"server.api", "server.jobs", "server.control", *WIRING, "drivers"},
     "server.live": {"server.api.app", *(WIRING - {"server.services"}), "drivers.simulator"},
     "server.api": {*(WIRING - {"server.services"}), "drivers.simulator"},
     "server.services": {"server.cli", "server.serving", "server.simulation", "server.composition"},

@@ -14,6 +14,9 @@ from server.api.pages import pages_router
 from server.api.problems import ANY_PROBLEM, install_handlers
 from server.api.routes import (
     camera,
+    charge_point,
+    config,
+    events,
     guidance,
     health,
     jobs,
@@ -23,6 +26,7 @@ from server.api.routes import (
     simulation,
     station,
     vehicles,
+    webhooks,
 )
 from server.api.twin import twin_router
 from server.services import Services
@@ -69,6 +73,10 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         camera,
         guidance,
         simulation,
+        charge_point,
+        events,
+        webhooks,
+        config,
         live,
     ):
         api.include_router(module.router)

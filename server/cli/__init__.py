@@ -29,6 +29,9 @@ _SUBCOMMANDS = {
     "locate": _Subcommand("server.cli.locate", "Find the socket in pictures."),
     "calibrate": _Subcommand("server.cli.calibrate", "Find the numbers of this robot's parts."),
     "firmware": _Subcommand("server.cli.firmware", "Build and write the board's firmware."),
+    "backup": _Subcommand("server.cli.backup", "Copy the data, also while PlugPilot runs."),
+    "restore": _Subcommand("server.cli.restore", "Put a backup in the database's place."),
+    "database": _Subcommand("server.cli.database", "Check the database, or begin a new one."),
     "config": _Subcommand("server.cli.config", "Print the settings in force."),
     "version": _Subcommand("server.cli.version", "Print the version."),
 }

@@ -17,6 +17,7 @@ class RecordingSettings(Section):
     max_total_mb: float = Field(
         2000.0, gt=0, le=1e6, description="What they may take together, 3D playbacks included"
     )
+    max_age_days: float = Field(365.0, gt=0, le=36_500, description="Older ones are deleted")
     max_one_mb: float = Field(
         200.0, gt=0, le=1e5, description="One recording ends here; its job goes on"
     )

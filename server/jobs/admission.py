@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from datetime import datetime
+
+from uuid6 import uuid7
+
 from server.control.model import PlugState, RobotMode
-from server.control.modes import why_not_moving
 from server.control.supervisor import Supervisor
 from server.jobs.errors import (
     IdempotencyReuseError,
@@ -11,10 +14,13 @@ from server.jobs.errors import (
     UnknownVehicleError,
     VehicleChoiceError,
 )
-from server.jobs.model import JobType
-from server.schema.jobs import Job, JobRequest
+from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.jobs import Job, JobRequest, JobResult
 from server.schema.vehicles import Vehicle
 from server.storage.vehicles import VehicleStore
+
+UNKNOWN_VEHICLE = "unknown"
+"""Id in jobs that pull the plug out of nobody knows which vehicle."""
 
 CAN_BE_MADE_READY = {RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.READY}
 
@@ -40,7 +46,7 @@ async def choose_vehicle(
     """Id of the vehicle that a request is about, and what is known about it.
 
     Pulling the plug out needs to know nothing about the vehicle, so unplugging falls back on the
-    vehicle of the newest job, even if that has been forgotten since.
+    vehicle of the newest job, even if that has been forgotten since, and without one on none.
 
     Raises:
         UnknownVehicleError: there is no such vehicle, or none at all.
@@ -56,12 +62,48 @@ async def choose_vehicle(
     if request.type is JobType.UNPLUG and newest is not None:
         return newest.vehicle_id, await vehicles.get(newest.vehicle_id)
     known = await vehicles.all()
+    if request.type is JobType.UNPLUG and len(known) != 1:
+        return UNKNOWN_VEHICLE, None
     if not known:
         raise UnknownVehicleError("No vehicle has been added yet.")
     if len(known) > 1:
         names = ", ".join(vehicle.id for vehicle in known)
         raise VehicleChoiceError(f"Several vehicles are known: {names}.")
     return known[0].id, known[0]
+
+
+async def require_vehicle(job: Job, vehicles: VehicleStore) -> Vehicle | None:
+    """The vehicle of a job that begins later than it was accepted; None if it needs none.
+
+    Raises:
+        UnknownVehicleError: it has been forgotten meanwhile.
+    """
+    vehicle = await vehicles.get(job.vehicle_id)
+    if vehicle is None and job.type is not JobType.UNPLUG:
+        raise UnknownVehicleError(
+            f"The vehicle {job.vehicle_id!r} is not known any more.", vehicle_id=job.vehicle_id
+        )
+    return vehicle
+
+
+def queued(request: JobRequest, vehicle_id: str, now: datetime) -> Job:
+    """A new job, as it is accepted."""
+    return Job(
+        id=str(uuid7()),
+        type=request.type,
+        state=JobState.QUEUED,
+        phase=JobPhase.PREFLIGHT,
+        vehicle_id=vehicle_id,
+        target_energy_wh=request.target_energy_wh,
+        not_before=request.not_before,
+        unplug_by=request.unplug_by,
+        created_at=now,
+        updated_at=now,
+        phase_started_at=now,
+        cancel_requested=False,
+        result=JobResult(),
+        error=None,
+    )
 
 
 def refuse_if_impossible(job_type: JobType, supervisor: Supervisor) -> None:
@@ -73,7 +115,7 @@ def refuse_if_impossible(job_type: JobType, supervisor: Supervisor) -> None:
     """
     mode = supervisor.mode
     if mode not in CAN_BE_MADE_READY:
-        problem = why_not_moving(mode, supervisor.telemetry.latest)
+        problem = supervisor.why_not_moving()
         if problem is not None:
             raise problem
     plug = supervisor.plug.state

@@ -5,6 +5,7 @@ from __future__ import annotations
 from drivers.robot import RobotDriverError, RobotState
 from drivers.station import StationSnapshot
 from server.control.faults import words_for
+from server.control.stop_cause import StopCause
 from server.control.supervisor import Supervisor
 from server.control.trouble import words_for_trouble
 from server.localisation.socket_pose import SocketPose
@@ -41,7 +42,9 @@ def robot_view(supervisor: Supervisor, socket: SocketPose | None, calendar: Cale
         control=ControlHolder(kind=holder.kind, name=holder.name, since=holder.since)
         if holder
         else None,
-        fault=_fault(state) if state else _no_link(supervisor.link_trouble),
+        fault=_fault(state) or _stop(supervisor.stop_cause)
+        if state
+        else _no_link(supervisor.link_trouble),
         socket=_socket(socket, calendar) if socket else None,
         updated_at=calendar.at(state.sampled_at_s) if state else calendar.now(),
     )
@@ -120,6 +123,18 @@ def _fault(state: RobotState) -> RobotFault | None:
         title=words.title,
         detail=state.fault.detail,
         remedy=words.remedy,
+    )
+
+
+def _stop(cause: StopCause | None) -> RobotFault | None:
+    """A protective stop that no person pressed; who pressed one knows why."""
+    if cause is None or cause.by_person:
+        return None
+    return RobotFault(
+        code=cause.error.code,
+        title=cause.error.title,
+        detail=cause.words,
+        remedy=cause.error.remedy,
     )
 
 

@@ -28,6 +28,9 @@ from twin.geometry import RobotGeometry
 
 OnSighting = Callable[[SocketPose, Frame], None]
 Refusal = VisionError | ImplausiblePlaceError
+OLD_S = 0.05
+"""A picture from longer before the question shows where the car was, not where it is."""
+
 _DOUBTS = (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError)
 """The label was read, but its pose does not deserve trust."""
 
@@ -131,10 +134,17 @@ class Eye:
         return None
 
     async def _frame(self) -> Frame:
+        asked_s = asyncio.get_running_loop().time()
         try:
-            return await self._camera.frame(exposed_after_s=asyncio.get_running_loop().time())
+            frame = await self._camera.frame(exposed_after_s=asked_s)
         except CameraError as error:
             raise CameraDownError(str(error)) from error
+        old_s = asked_s - frame.captured_at_s
+        if not old_s <= OLD_S:
+            raise CameraDownError(
+                f"The camera gave a picture that was {old_s:.1f} s old when it was asked for one."
+            )
+        return frame
 
     async def _locate(
         self, frame: Frame, vehicle: Vehicle, expected: SocketPose | None, *, still: bool

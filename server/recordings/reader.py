@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,6 +20,9 @@ LARGEST_RECORD_BYTES = 64 * 2**20
 
 CUT_SHORT = (McapError, CRCValidationError, ZstdError, struct.error)
 """What reading raises where the rest was never written. A short read looks like any of these."""
+
+GAP_NS = 1_000_000_000
+"""Between two pieces of a recording, at least."""
 
 _BY_NAME = {topic.name: topic for topic in TOPICS}
 
@@ -85,3 +88,33 @@ def repair(cut: Path, path: Path) -> bool:
         repaired.abandon()
     cut.unlink()
     return count > 0
+
+
+def join(pieces: Sequence[Path], whole: Path) -> None:
+    """Make one recording of several of the same job, in their order.
+
+    Times count the robot's own seconds, so those of a fast simulation run ahead of the date; a
+    later piece begins no earlier than a second after the one before.
+
+    Args:
+        pieces: Recordings; not changed.
+        whole: What is made of them.
+
+    Raises:
+        OSError: the disk refused; nothing is left of the attempt.
+    """
+    joined = RecordingFile(whole)
+    try:
+        end_ns = 0
+        for piece in pieces:
+            shift_ns: int | None = None
+            for entry in read_recording(piece):
+                if shift_ns is None:
+                    shift_ns = max(0, end_ns + GAP_NS - entry.log_time_ns) if end_ns else 0
+                log_time_ns = entry.log_time_ns + shift_ns
+                end_ns = max(end_ns, log_time_ns)
+                joined.write(entry.topic, log_time_ns, entry.record)
+        joined.finish()
+    except OSError:
+        joined.abandon()
+        raise

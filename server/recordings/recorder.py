@@ -17,6 +17,7 @@ from server.config.settings import Settings
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.divergence.report import divergence_report
+from server.jobs.model import JobState
 from server.jobs.runner import JobRunner
 from server.live.station_watch import StationWatch
 from server.localisation.eye import Eye
@@ -109,7 +110,7 @@ class Recorder:
         job = self._runner.newest
         if job is None or not self._store.enabled:
             return
-        if not job.state.ended and job.id != self._job_id:
+        if job.state is JobState.RUNNING and job.id != self._job_id:
             self._begin(job)
         elif job.state.ended and self._session is not None:
             # The last entry of the journal is told after this.
@@ -140,13 +141,19 @@ class Recorder:
         trouble = await session.write(lambda: self._pictures.left_out)
         if self._session is session:
             self._session = None
-        self._store.ended()
+        await self._end()
         if trouble is not None:
             await self._note("recording_failed", f"This job is not recorded: {trouble}.")
             return
         if session.full:
             await self._note("recording_full", "The recording is full; the job goes on.")
         self._finished(job_id)
+
+    async def _end(self) -> None:
+        try:
+            await asyncio.to_thread(self._store.ended)
+        except OSError as error:
+            _log.warning("the recording of a restarted job stays in two pieces: %s", error)
 
     async def _note(self, kind: str, message: str) -> None:
         _log.warning("%s", message)

@@ -34,6 +34,9 @@ from twin.statics import ActuatorLimits, Loads, SagTables
 
 CHARGING = {PilotState.C.value, PilotState.D.value}
 
+LONGEST_GAP_S = 5.0
+"""Samples come every second even at rest: in a longer gap PlugPilot was not running."""
+
 STILL_MM = 0.02
 """Joints that have moved less between two samples stand still."""
 
@@ -175,6 +178,8 @@ class _Reel:
     def _advance(self, at_s: float, *, resting: bool) -> None:
         """Let the playback go on until a sample, showing what was known before it."""
         passed_s = 0.0 if self._last_at_s is None else at_s - self._last_at_s
+        if passed_s > LONGEST_GAP_S:
+            passed_s = self._pause_s
         self._last_at_s = at_s
         if resting:
             left_s = max(self._pause_s - self._rested_s, 0.0)

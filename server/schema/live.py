@@ -33,6 +33,10 @@ class Service(Wire):
     speed: float = Field(description="Simulated seconds per second; 1 for a real robot")
     camera_online: bool
     started_at: Timestamp
+    storage: Problem | None = Field(
+        default=None,
+        description="Why nothing can be kept for now; the robot can still be unplugged",
+    )
 
 
 class Live(Wire):

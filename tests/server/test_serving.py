@@ -102,7 +102,7 @@ def test_it_says_where_it_is_once_and_ends_soon_with_everybody_watching(tmp_path
     database.close()
 
 
-def test_a_killed_job_has_failed_after_the_restart(tmp_path: Path) -> None:
+def test_a_killed_job_goes_on_after_the_restart(tmp_path: Path) -> None:
     with serving("--speed=20", data_dir=tmp_path) as server, _rest(server) as client:
         job_id = _plug_in(client)
         # moving in means that the plug's new place is on disk already
@@ -110,15 +110,11 @@ def test_a_killed_job_has_failed_after_the_restart(tmp_path: Path) -> None:
         _until(lambda: going_in.items() <= _robot(client).items())
         server.kill()
     with serving("--speed=20", data_dir=tmp_path) as server, _rest(server) as client:
-        _until(lambda: _robot(client)["mode"] != "offline")
-        ended = client.get(f"jobs/{job_id}").json()
-        assert ended["state"] == "failed"
-        assert ended["error"]["code"] == "interrupted"
-        assert ended["error"]["remedy"]
-        assert client.get("robot").json()["plug"] == "unknown"
-        assert client.post("jobs", json={"type": "plug_in"}).json()["code"] == "plug_state"
+        _until(lambda: client.get(f"jobs/{job_id}").json()["state"] == "succeeded")
+        assert client.get("robot").json()["plug"] == "inserted"
         events = client.get(f"jobs/{job_id}/events").json()["items"]
         assert [event["sequence"] for event in events] == list(range(1, len(events) + 1))
+        assert "resumed" in {event["kind"] for event in events}
 
 
 async def _is_connected(client: httpx.AsyncClient) -> bool:
@@ -140,8 +136,10 @@ async def test_requests_that_come_at_the_same_time_give_one_job() -> None:
             others = await asyncio.gather(
                 *(client.post("jobs", json={"type": "plug_in"}) for _ in range(5))
             )
-            assert {answer.json()["code"] for answer in others} == {"job_running"}
-            assert len((await client.get("jobs")).json()["items"]) == 1
+            assert sorted(answer.status_code for answer in others) == [202, 409, 409, 409, 409]
+            refused = [answer.json() for answer in others if answer.status_code == 409]
+            assert {answer["code"] for answer in refused} == {"job_queue_full"}
+            assert len((await client.get("jobs")).json()["items"]) == 2
 
 
 def test_an_error_inside_is_a_problem_on_a_real_socket_too(tmp_path: Path) -> None:
@@ -177,13 +175,23 @@ def test_a_configuration_that_cannot_be_read_is_told_in_a_sentence(tmp_path: Pat
     _assert_told_in_words(_run("serve", "--config", "broken.toml", cwd=tmp_path), "broken.toml")
 
 
-def test_a_damaged_database_is_told_in_a_sentence_and_left_alone(tmp_path: Path) -> None:
+def test_a_damaged_database_is_told_and_left_alone_and_the_robot_starts(tmp_path: Path) -> None:
     damaged = tmp_path / "plugpilot.sqlite3"
     damaged.write_text(json.dumps({"this is": "no database"}) * 100)
     before = damaged.read_bytes()
-    run = _run("serve", "--port", "0", "--data-dir", str(tmp_path), cwd=tmp_path)
-    _assert_told_in_words(run, "not a readable SQLite database")
+    with serving(data_dir=tmp_path) as server, _rest(server) as client:
+        health = client.get("health").json()
+        assert health["status"] == "degraded"
+        assert health["components"]["storage"]["status"] == "down"
+        assert "plugpilot restore" in health["components"]["storage"]["detail"]
+        assert client.post("robot/stop").status_code < 300
     assert damaged.read_bytes() == before
+
+
+def test_a_second_server_does_not_take_the_same_folder(tmp_path: Path) -> None:
+    with serving(data_dir=tmp_path):
+        run = _run("serve", "--port", "0", "--data-dir", str(tmp_path), cwd=tmp_path)
+        _assert_told_in_words(run, "Another PlugPilot uses", "--data-dir")
 
 
 def test_a_driver_that_is_not_there_yet_is_told_in_a_sentence(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import httpx
 
 from server.api.app import PREFIX, create_app
+from server.config.settings import Settings
 from server.schema.problem import TYPE_PREFIX
 from tests.support.garage import Scene, on_scene
 
@@ -20,6 +21,7 @@ def on_api(
     *,
     seed: int = 4,
     parked: bool = False,
+    settings: Settings | None = None,
 ) -> T:
     """Run a scenario with a client of the API. Paths are relative to /api/v1/."""
 
@@ -34,7 +36,7 @@ def on_api(
         ):
             return await scenario(scene, client)
 
-    return on_scene(with_client, seed=seed, parked=parked)
+    return on_scene(with_client, seed=seed, parked=parked, settings=settings)
 
 
 def problem(response: httpx.Response, status: int, code: str) -> dict[str, Any]:

@@ -15,7 +15,7 @@ router = APIRouter(tags=["service"])
 _OK = ComponentHealth(status="ok", detail="Works.")
 
 
-@router.get("/health", operation_id="getHealth")
+@router.get("/health", operation_id="getHealth", summary="Read the health of every part")
 async def health(services: ServicesDep) -> Health:
     """Health of every part. Answers 200 as long as the service itself runs."""
     components = {
@@ -26,7 +26,7 @@ async def health(services: ServicesDep) -> Health:
         "station": _OK
         if services.station.online
         else ComponentHealth(status="down", detail="The charging station does not answer."),
-        "storage": _OK,
+        "storage": _storage(services),
         "twin": _twin(services),
     }
     statuses = {component.status for component in components.values()}
@@ -50,6 +50,14 @@ def _robot(services: Services) -> ComponentHealth:
             return ComponentHealth(status="degraded", detail="Stopped; needs a person.")
         case _:
             return _OK
+
+
+def _storage(services: Services) -> ComponentHealth:
+    problem = services.database.problem
+    if problem is None:
+        return _OK
+    # In general words: the file's place is nobody's business who has no account.
+    return ComponentHealth(status="down", detail=f"{problem.title}. {problem.remedy}")
 
 
 def _twin(services: Services) -> ComponentHealth:

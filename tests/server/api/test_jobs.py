@@ -73,12 +73,18 @@ def test_the_same_key_with_the_same_body_is_the_same_job() -> None:
         )
         assert refused["context"]["job_id"] == job_id
         other = {"Idempotency-Key": "4712"}
-        problem(await client.post("jobs", json=PLUG_IN, headers=other), 409, "job_running")
-        problem(await client.post("jobs", json=PLUG_IN), 409, "job_running")
+        second = await client.post("jobs", json=PLUG_IN, headers=other)
+        assert second.status_code == 202
+        assert second.json()["state"] == "queued"
+        again = await client.post("jobs", json=PLUG_IN, headers=other)
+        assert again.json()["id"] == second.json()["id"]
+        problem(await client.post("jobs", json=PLUG_IN), 409, "job_queue_full")
+        dropped = await client.post(f"jobs/{second.json()['id']}/cancel")
+        assert dropped.json()["state"] == "cancelled"
         await _cancelled(scene, client, job_id)
         late = await client.post("jobs", json=PLUG_IN, headers=key)
         assert late.json()["state"] == "cancelled"  # the same job, as it is by now
-        fresh = await client.post("jobs", json=PLUG_IN, headers=other)  # was never accepted
+        fresh = await client.post("jobs", json=PLUG_IN, headers={"Idempotency-Key": "4713"})
         assert fresh.status_code == 202
         assert fresh.json()["id"] != job_id
         await _cancelled(scene, client, fresh.json()["id"])

@@ -20,7 +20,9 @@ def test_add_change_read_forget() -> None:
         assert vehicle.label_payload.startswith("PP2:zoe:")
         assert vehicle.socket.x_mm == 118.5
         assert vehicle.socket.z_mm == 0.0
-        changed = await client.put("vehicles/zoe", json={**ZOE, "name": "Amelie"})
+        version = {"If-Match": added.headers["etag"]}
+        renamed = {**ZOE, "name": "Amelie"}
+        changed = await client.put("vehicles/zoe", json=renamed, headers=version)
         assert changed.status_code == 200
         assert (await client.get("vehicles/zoe")).json() == changed.json()
         names = [vehicle["name"] for vehicle in (await client.get("vehicles")).json()["items"]]

@@ -1,65 +1,142 @@
-"""After a restart nothing is guessed: interrupted jobs are closed, and the plug is doubted."""
+"""After a restart nothing is guessed: jobs go on by evidence, or ask a person."""
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 
 import pytest
 
-from server.control.model import PlugState, RobotMode
-from server.jobs.errors import PlugStateError
+from drivers.robot import NotConnectedError, RobotIdentity
+from drivers.simulator.robot import SimulatedRobot
+from server.config.jobs import JobSettings
+from server.config.settings import Settings
+from server.control.errors import ControlBusyError
+from server.control.model import PlugState
+from server.jobs.errors import JobWaitsForPersonError
 from server.jobs.model import JobPhase, JobState, JobType
 from server.schema.jobs import Job
 from server.storage.errors import StorageError
 from tests.support.garage import Scene, on_scene
+from tests.support.knowing_eye import on_knowing_scene
 
 
 def _interrupted_in(phase: JobPhase, folder: Path) -> Job:
     async def scenario(scene: Scene) -> Job:
-        job = await scene.start(JobType.CHARGE, 500.0)
+        job = await scene.start(JobType.CHARGE, 30.0)
         await scene.until_phase(phase)
         await scene.until_moving()
         return job  # the scene ends here, the job does not
 
-    return on_scene(scenario, seed=4, folder=folder)
+    return on_knowing_scene(scenario, seed=4, folder=folder)
 
 
-def test_an_interrupted_job_has_failed_and_says_why(tmp_path: Path) -> None:
+def test_an_interrupted_job_goes_on_and_says_how(tmp_path: Path) -> None:
     interrupted = _interrupted_in(JobPhase.ALIGNING, tmp_path)
 
     async def scenario(scene: Scene) -> None:
-        job = await scene.services.jobs.get(interrupted.id)
-        assert job is not None
-        assert job.state is JobState.FAILED
-        assert job.error is not None
-        assert job.error.code == "interrupted"
-        assert "aligning" in job.error.detail
-        assert scene.services.runner.newest == job
+        job = await scene.ended(interrupted)
+        assert job.state is JobState.SUCCEEDED
         events = await scene.events(job)
         assert [event.sequence for event in events] == list(range(1, len(events) + 1))
-        assert events[-1].kind == "failed"
-        assert scene.services.supervisor.plug.state is PlugState.FREE
-        assert (await scene.carried_out(JobType.PLUG_IN)).error is None
+        [resumed] = [event for event in events if event.kind == "resumed"]
+        assert resumed.phase is JobPhase.ALIGNING
+        assert "restarted in the phase aligning" in resumed.message
+        assert "begins anew" in resumed.message
+        assert scene.services.supervisor.plug.state is PlugState.PARKED
 
     on_scene(scenario, seed=4, folder=tmp_path, parked=False)
 
 
-def test_a_plug_that_was_going_in_is_unknown_until_it_was_withdrawn(tmp_path: Path) -> None:
-    _interrupted_in(JobPhase.INSERTING, tmp_path)
+def test_a_plug_that_was_going_in_comes_out_before_it_goes_in_again(tmp_path: Path) -> None:
+    interrupted = _interrupted_in(JobPhase.INSERTING, tmp_path)
 
     async def scenario(scene: Scene) -> None:
         supervisor = scene.services.supervisor
         assert supervisor.plug.state == "unknown"
-        assert supervisor.mode is RobotMode.OFF
-        for job_type in (JobType.PLUG_IN, JobType.CHARGE):
-            with pytest.raises(PlugStateError, match="does not know"):
-                await scene.start(job_type)
-        job = await scene.carried_out(JobType.UNPLUG)
-        assert job.error is None
-        assert supervisor.plug.state is PlugState.PARKED
-        assert (await scene.carried_out(JobType.PLUG_IN)).error is None
+        await scene.until_phase(JobPhase.WITHDRAWING)
+        job = await scene.ended(interrupted)
+        assert job.state is JobState.SUCCEEDED
+        assert (job.result.energy_wh or 0.0) >= 30.0
+        truth = scene.truth()
+        assert truth.lateral_violation_mm == 0
+        assert truth.load_breaks == 0
 
     on_scene(scenario, seed=4, folder=tmp_path, parked=False)
+
+
+def test_a_job_waits_for_a_robot_that_does_not_answer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    interrupted = _interrupted_in(JobPhase.ALIGNING, tmp_path)
+    connect = SimulatedRobot.connect
+
+    async def late(robot: SimulatedRobot) -> RobotIdentity:
+        if asyncio.get_running_loop().time() < 30.0:
+            raise NotConnectedError("There is no board.")
+        return await connect(robot)
+
+    async def scenario(scene: Scene) -> None:
+        await scene.later(20.0)
+        job = await scene.services.jobs.get(interrupted.id)
+        assert job is not None
+        assert job.needs_person is not None
+        assert job.needs_person.code == "robot_offline"
+        assert job.needs_person.choices == []
+        assert job.state is JobState.RUNNING
+        ended = await scene.ended(interrupted)
+        assert ended.needs_person is None
+        assert ended.state is JobState.SUCCEEDED
+
+    monkeypatch.setattr(SimulatedRobot, "connect", late)
+    on_knowing_scene(scenario, seed=4, folder=tmp_path, parked=False)
+
+
+def test_what_a_job_asks_stays_open_and_can_be_answered(
+    tmp_path: Path,
+) -> None:
+    interrupted = _interrupted_in(JobPhase.ALIGNING, tmp_path)
+    asked: list[str] = []
+
+    async def scenario(scene: Scene) -> None:
+        runner = scene.services.runner
+        await scene.until(lambda: runner.newest is not None and bool(runner.newest.needs_person))
+        assert runner.newest is not None
+        assert runner.newest.needs_person is not None
+        asked.append(runner.newest.needs_person.sentence)
+        assert scene.services.supervisor.holder is None  # whoever answers may move the robot first
+        with pytest.raises(JobWaitsForPersonError):
+            await scene.start(JobType.PLUG_IN)
+        if len(asked) == 1:
+            return  # another restart
+        async with scene.services.supervisor.control("jog", "A technician"):
+            with pytest.raises(ControlBusyError):
+                await runner.resume(interrupted.id)
+        await runner.resume(interrupted.id)
+        job = await scene.ended(interrupted)
+        assert job.state is JobState.SUCCEEDED
+        assert job.needs_person is None
+
+    patient = Settings(jobs=JobSettings(max_resumptions=0))
+    on_knowing_scene(scenario, seed=4, folder=tmp_path, parked=False, settings=patient)
+    on_knowing_scene(scenario, seed=4, folder=tmp_path, parked=False, settings=patient)
+    assert asked[0] == asked[1]
+
+
+def test_a_job_that_asks_can_be_cancelled(tmp_path: Path) -> None:
+    interrupted = _interrupted_in(JobPhase.INSERTING, tmp_path)
+
+    async def scenario(scene: Scene) -> None:
+        runner = scene.services.runner
+        await scene.until(lambda: runner.newest is not None and bool(runner.newest.needs_person))
+        await runner.cancel(interrupted.id)
+        job = await scene.ended(interrupted)
+        assert job.state is JobState.CANCELLED
+        assert scene.services.supervisor.plug.state is PlugState.PARKED
+        assert scene.truth().lateral_violation_mm == 0
+
+    patient = Settings(jobs=JobSettings(max_resumptions=0))
+    on_knowing_scene(scenario, seed=4, folder=tmp_path, parked=False, settings=patient)
 
 
 def test_a_plug_whose_depth_nobody_knows_is_withdrawn_along_its_axis() -> None:

@@ -10,6 +10,7 @@ from tests.support.robot_cell import RobotCell, in_cell
 def test_it_reads_regularly_and_says_when_the_station_is_silent() -> None:
     async def scenario(cell: RobotCell) -> None:
         station = cell.garage.station
+        await station.close()
         changes: list[bool] = []
         watch = StationWatch(station, 1.0, lambda: changes.append(watch.online))
         await watch.start()

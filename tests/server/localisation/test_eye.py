@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,11 @@ from drivers.robot import (
     RobotState,
 )
 from server.control.telemetry import Telemetry
-from server.localisation.errors import ImplausiblePlaceError, LabelSizeWrongError
+from server.localisation.errors import (
+    CameraDownError,
+    ImplausiblePlaceError,
+    LabelSizeWrongError,
+)
 from server.localisation.eye import Eye
 from server.localisation.frames import Pose, base_from_camera
 from server.schema.vehicles import Vehicle
@@ -45,6 +51,7 @@ class Scene:
         self.copies: list[Pose] = []
         self.telemetry = Telemetry()
         self.pictures = 0
+        self.age_s = 0.0
         self.go(HOME)
 
     def camera_pose(self) -> Pose:
@@ -73,7 +80,6 @@ class Scene:
     async def close(self) -> None: ...
 
     async def frame(self, *, exposed_after_s: float | None = None) -> Frame:
-        del exposed_after_s
         self.pictures += 1
         to_camera = np.linalg.inv(self.camera_pose())
         placed = [
@@ -82,7 +88,8 @@ class Scene:
         ]
         rng = np.random.default_rng(self.pictures)
         image = photograph(CAMERA, placed, Shot(), rng)
-        return Frame(image, float(self.pictures), self.pictures)
+        asked_s = asyncio.get_running_loop().time() if exposed_after_s is None else exposed_after_s
+        return Frame(image, asked_s - self.age_s, self.pictures)
 
 
 @pytest.fixture
@@ -159,3 +166,11 @@ async def test_a_wrong_size_is_noticed_from_the_second_place(scene: Scene, eye: 
     with pytest.raises(LabelSizeWrongError) as caught:
         await eye.measure(wrong, 4, seen)
     assert caught.value.context["measured_mm"] == pytest.approx(60.0, abs=0.3)
+
+
+async def test_an_old_picture_is_no_picture(scene: Scene, eye: Eye) -> None:
+    scene.age_s = 0.3
+    with pytest.raises(CameraDownError, match=r"0\.3 s old"):
+        await eye.look(VEHICLE)
+    with pytest.raises(CameraDownError):
+        await eye.measure(VEHICLE, 3, None)

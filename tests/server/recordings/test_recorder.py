@@ -21,6 +21,7 @@ from server.jobs.model import JobPhase, JobState, JobType
 from server.recordings.file import UNFINISHED, RecordingFile
 from server.recordings.reader import Entry, read_recording
 from server.recordings.session import WAITING, RecordingSession
+from server.recordings.timeline import timeline
 from server.recordings.topics import (
     END,
     EVENT,
@@ -208,6 +209,35 @@ def test_an_interrupted_job_leaves_a_whole_recording(tmp_path: Path) -> None:
     entries = recorded(tmp_path, job)
     assert isinstance(entries[-1].record, EndRecord)
     assert not list((tmp_path / "recordings").glob(f"*{UNFINISHED}"))
+
+
+def test_a_job_that_spans_a_restart_is_recorded_whole(tmp_path: Path) -> None:
+    async def before(scene: Scene) -> Job:
+        job = await scene.start(JobType.PLUG_IN)
+        await scene.until_phase(JobPhase.INSERTING)
+        await scene.later(2.0)
+        return job
+
+    job = on_scene(before, seed=4, folder=tmp_path, settings=with_limits())
+
+    async def after(scene: Scene) -> None:
+        assert (await scene.ended(job)).state is JobState.SUCCEEDED
+        await until_recorded(scene, job)
+        await scene.later(1.0)
+        entries = recorded(tmp_path, job)
+        events = of(entries, EventRecord)
+        journal = await scene.events(job)
+        assert [each.sequence for each in events] == [each.sequence for each in journal]
+        times_ns = [each.log_time_ns for each in entries if isinstance(each.record, EventRecord)]
+        assert times_ns == sorted(times_ns)
+        reel = timeline(entries, rate_hz=20.0, pause_s=2.0)
+        phases = [mark.text for mark in reel.marks if mark.kind == "phase"]
+        assert phases.count("inserting") == 2
+        assert phases[-1] == "plugged"
+        assert len(of(entries, StationRecord)) > 10
+        assert len(of(entries, PictureRecord)) > 3
+
+    on_scene(after, seed=4, folder=tmp_path, settings=with_limits(), parked=False)
 
 
 def in_session(tmp_path: Path, scenario: Callable[[RecordingSession, Path], object]) -> list[Entry]:

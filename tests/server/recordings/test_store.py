@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import time
 from pathlib import Path
 from uuid import UUID
 
@@ -10,6 +12,7 @@ from uuid6 import uuid7
 
 from server.config.recordings import MEGABYTE, RecordingSettings
 from server.recordings.errors import NoRecordingError, RecordingRunningError
+from server.recordings.reader import read_recording
 from server.recordings.store import RecordingStore
 from server.recordings.topics import EVENT
 from tests.server.recordings.test_file import event, numbers, written
@@ -91,3 +94,50 @@ def test_what_a_power_cut_left_is_repaired_at_the_next_start(tmp_path: Path) -> 
     assert numbers(kept.path("a")) == list(range(100))
     assert numbers(kept.path("b")) == list(range(100))
     assert sorted(path.name for path in folder.iterdir()) == ["a.mcap", "b.mcap"]
+
+
+def test_a_recording_goes_on_after_a_restart_and_becomes_one(tmp_path: Path) -> None:
+    folder = tmp_path / "recordings"
+    folder.mkdir()
+    written(folder / "job.mcap", finish=False)  # a hundred entries, then the power went
+    kept = store(tmp_path)
+    file = kept.begin("job")
+    file.write(EVENT, 0, event(100))  # a clock that has been set back, too
+    assert (folder / "job.mcap.earlier").is_file()
+    file.finish()
+    kept.ended()
+    assert numbers(kept.path("job")) == list(range(101))
+    times_ns = [entry.log_time_ns for entry in read_recording(kept.path("job"))]
+    assert times_ns == sorted(times_ns)
+    assert sorted(path.name for path in folder.iterdir()) == ["job.mcap"]
+
+
+def test_a_power_cut_while_pieces_are_joined_loses_none(tmp_path: Path) -> None:
+    folder = tmp_path / "recordings"
+    folder.mkdir()
+    for name, left in (("a", ".earlier"), ("b", ".earlier")):
+        written(folder / f"{name}.mcap").rename(folder / f"{name}.mcap{left}")
+    written(folder / "a.mcap")
+    (folder / "a.joined.part").write_bytes(b"half of it")
+    kept = store(tmp_path)
+    assert numbers(kept.path("a")) == [*range(100), *range(100)]
+    assert numbers(kept.path("b")) == list(range(100))
+    assert sorted(path.name for path in folder.iterdir()) == ["a.mcap", "b.mcap"]
+
+
+def test_a_recording_that_cannot_go_on_keeps_what_there_was(tmp_path: Path) -> None:
+    kept = store(tmp_path)
+    [old] = fill(tmp_path, 1)
+    before = numbers(kept.path(old))
+    kept.begin(old).abandon()  # the disk is full
+    kept.ended()
+    assert numbers(kept.path(old)) == before
+
+
+def test_what_is_too_old_goes(tmp_path: Path) -> None:
+    kept = store(tmp_path, max_age_days=30)
+    ids = fill(tmp_path, 3)
+    old_s = time.time() - 31 * 86_400
+    os.utime(tmp_path / "recordings" / f"{ids[0]}.mcap", (old_s, old_s))
+    kept.tidy()
+    assert names(tmp_path) == ids[1:]

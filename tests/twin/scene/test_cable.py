@@ -110,6 +110,8 @@ def test_how_hard_a_taut_cable_pulls_is_not_known() -> None:
 @pytest.mark.parametrize(
     ("length_mm", "mass_kg"), [(0, 1), (-1, 1), (1, -1), (np.inf, 1), (1, np.nan)]
 )
-def test_a_cable_without_length_or_with_negative_mass_is_refused(length_mm: float, mass_kg: float) -> None:
+def test_a_cable_without_length_or_below_no_mass_is_refused(
+    length_mm: float, mass_kg: float
+) -> None:
     with pytest.raises(ValueError, match="greater than zero"):
         cable.Cable(length_mm, mass_kg)

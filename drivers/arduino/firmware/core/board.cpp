@@ -31,6 +31,8 @@ bool Board::in_motion_state() const {
 }
 
 void Board::brake() {
+  // whoever stops it: the encoder may be dead, and the slide has gone on
+  if (slide_.pushes_unseen()) homed_ = false;
   interpolator_.brake();
   begin_settling();
 }
@@ -62,6 +64,7 @@ void Board::latch(Fault fault, uint8_t axes) {
       break;
     case Fault::STALL:
     case Fault::FOLLOWING_ERROR:
+      if (fault == Fault::FOLLOWING_ERROR || slide_.pushes_unseen()) homed_ = false;
       interpolator_.brake_and_hold_slide(encoder_.counts());
       begin_settling();
       slide_.reset();

@@ -10,12 +10,16 @@ constexpr int32_t kMostQ8 = kPwmMax * kOneQ8;
 constexpr int32_t kLargestQ8 = 32767;
 
 constexpr int32_t kLetGoShare = 4;  // of the integral, for each count
+constexpr int32_t kHardShare = 2;   // of the cap: from there on it pushes hard
+constexpr int32_t kSeenShare = 4;   // of the force may come after the newest count
 
 int32_t clamped(int32_t value, int32_t limit) {
   if (value > limit) return limit;
   if (value < -limit) return -limit;
   return value;
 }
+
+int32_t magnitude(int32_t value) { return value < 0 ? -value : value; }
 
 int32_t sign(int32_t value) { return (value > 0) - (value < 0); }
 
@@ -45,6 +49,7 @@ void SlideController::reset() {
   stuck_ms_ = 0;
   pwm_ = 0;
   limited_ = holding_ = false;
+  force_at_count_q8_ = 0;
   stood_ms_ = 0;
 }
 
@@ -96,12 +101,18 @@ void SlideController::integrate(int32_t error_q8, int32_t wanted_q8) {
 }
 
 void SlideController::watch_for_stall(int32_t counts) {
+  if (counts != last_counts_) force_at_count_q8_ = magnitude(force_q8_);
   if (counts != last_counts_ || !limited_) {
     stuck_ms_ = 0;
   } else if (stuck_ms_ < UINT16_MAX) {
     ++stuck_ms_;
   }
   last_counts_ = counts;
+}
+
+bool SlideController::pushes_unseen() const {
+  const int32_t force_q8 = magnitude(force_q8_);
+  return force_q8 >= cap_q8_ / kHardShare && force_at_count_q8_ < force_q8 - force_q8 / kSeenShare;
 }
 
 int16_t SlideController::update(int64_t set_point, int32_t rate, const Encoder& encoder) {

@@ -27,6 +27,11 @@ class SlideController {
   // Pushing at the cap for so long without a count.
   bool stalled() const { return stuck_ms_ >= numbers_.stall_ms; }
 
+  // Whether it pushes hard and the force has grown much since the newest count. Whatever really stops
+  // the slide gives way a little, so counts come up to nearly the whole force. An encoder that dies
+  // falls silent at the force of the motion before, and the slide goes on unseen.
+  bool pushes_unseen() const;
+
   // The cap was in force at the last update.
   bool force_limited() const { return limited_; }
 
@@ -46,6 +51,7 @@ class SlideController {
   int32_t cap_q8_ = 0;        // PWM that makes force, at most
   int32_t integral_q16_ = 0;  // PWM
   int32_t force_q8_ = 0;      // PWM that makes force
+  int32_t force_at_count_q8_ = 0;  // at the newest count, without its sign
   int32_t last_counts_ = 0;
   int32_t last_rate_ = 0;
   uint16_t stuck_ms_ = 0;
