@@ -16,7 +16,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format bench bench-vision campaign rig board lock clean \
+.PHONY: help setup run test lint format bench bench-vision campaign hostile rig board lock clean \
 	setup-dev system-packages \
 	check-style check-types check-web test-python test-web
 
@@ -55,6 +55,9 @@ board: setup system-packages ## a simulated board with the real firmware, for se
 
 campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
 	@$(BIN)/plugpilot simulate campaign $(ARGS)
+
+hostile: setup-dev ## 1000 times a hostile energy manager at a random moment; --timings N in ARGS
+	@$(BIN)/python -m tests.campaign.hostile $(ARGS)
 
 lock: $(BIN)/python ## write the lock files; UPGRADE=--upgrade takes the newest allowed versions
 	@$(PIP) "uv>=0.8,<1"

@@ -21,6 +21,7 @@ from server.control.jog import DEAD_MAN_S, Jog
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.divergence.report import twin_report
+from server.integrations import Integrations
 from server.jobs.runner import JobRunner
 from server.labels.key_file import load_label_key
 from server.labels.payload import LabelKey
@@ -118,6 +119,8 @@ async def running(
             settings=settings,
             calendar=calendar,
         )
+        integrations = Integrations(database, settings, calendar, speed)
+        await integrations.running_settings.start()
         camera = CameraFeed(devices.camera, CAMERA_PERIOD_S * speed)
         stack.push_async_callback(camera.close)
         live = LiveHub(PUSH_PERIOD_S * speed)
@@ -128,9 +131,13 @@ async def running(
 
         def station_read() -> None:
             recorder.station_changed()
+            charge_point.station_read()
             live.changed("station")
 
         station = StationWatch(devices.station, STATION_PERIOD_S * speed, station_read)
+        charge_point = integrations.charge_point(
+            supervisor=supervisor, runner=runner, station=devices.station, watch=station
+        )
         recordings = RecordingStore(folder, settings.recordings)
         recorder = Recorder(
             store=recordings,
@@ -161,10 +168,19 @@ async def running(
             divergence=divergence,
             recordings=recordings,
             playbacks=Playbacks(recordings, settings.recordings),
+            running_settings=integrations.running_settings,
+            events=integrations.events,
+            webhooks=integrations.webhooks,
+            charge_point=charge_point,
             twin=twin,
             garage=devices.garage,
         )
         _show(services)
+        integrations.tell_events(services)
+        await services.webhooks.start()
+        stack.push_async_callback(services.webhooks.close)
+        await charge_point.start()
+        stack.push_async_callback(charge_point.close)
         await supervisor.start(wait=wait_for_robot)
         stack.push_async_callback(supervisor.close)
         await runner.start()

@@ -6,10 +6,13 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from drivers.simulator.garage import SimulatedGarage
+from server.adjusting import RunningSettings
+from server.charge_point import ChargePointService
 from server.config.settings import Settings
 from server.control.jog import Jog
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
+from server.events import EventLog
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
@@ -20,6 +23,7 @@ from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
 from server.timing import Calendar
+from server.webhooks.service import Webhooks
 from twin.scene import TwinHost
 
 
@@ -43,6 +47,10 @@ class Services:
         divergence: Runs the model beside the robot.
         recordings: What was recorded of jobs.
         playbacks: The same for the 3D picture.
+        running_settings: The settings that may change while PlugPilot runs.
+        events: What has happened lately.
+        webhooks: Who is told what happens.
+        charge_point: Robot and station as one charger.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
     """
@@ -62,5 +70,9 @@ class Services:
     divergence: DivergenceWatcher
     recordings: RecordingStore
     playbacks: Playbacks
+    running_settings: RunningSettings
+    events: EventLog
+    webhooks: Webhooks
+    charge_point: ChargePointService
     twin: TwinHost | None
     garage: SimulatedGarage | None

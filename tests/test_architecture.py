@@ -27,7 +27,15 @@ ALLOWED: dict[str, set[str]] = {
     "server.timing": set(),
     "server.config": {"server.config", "server.errors", "drivers", "twin"},
     "server.vision": {"server.vision", "server.errors", "drivers.camera", "twin"},
-    "server.control": {"server.control", "server.errors", "server.timing", "drivers.robot", "twin"},
+    "server.control": {
+        "server.control",
+        "server.errors",
+        "server.timing",
+        "server.config",
+        "drivers.robot",
+        "drivers.station",
+        "twin",
+    },
 }
 """The only parts of the project that a package may import."""
 

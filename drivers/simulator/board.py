@@ -224,6 +224,8 @@ class SimulatedBoard:
             self.homed = False
         elif code in {FaultCode.STALL, FaultCode.FOLLOWING_ERROR}:
             self.world.brake(now_s, rho3_mm=state.motors.rho3_mm)
+            if code is FaultCode.FOLLOWING_ERROR or not self.world.pushes_tight(state):
+                self.homed = False  # as on the real board, whose encoder may be dead
         elif not self.world.line.ran_empty(now_s):
             self.world.brake(now_s)
         if self.fault is None:

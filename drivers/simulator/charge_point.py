@@ -6,6 +6,7 @@ Everything that takes time is a timer of the event loop; between two of them not
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Callable
 
 from drivers.simulator.charging import PowerRamp
@@ -29,11 +30,13 @@ class ChargePoint:
         self._opening: asyncio.TimerHandle | None = None
         self._full: asyncio.TimerHandle | None = None
         self._energy_before_wh = 0.0
+        self._limit_a = math.inf
         self.connected = world.pilot_made
         self.enabled = False
         self.held = False
         self.locked = False
         self.on_idle: Callable[[], None] = lambda: None
+        self.on_contactor: Callable[[bool], None] = lambda _closed: None
         world.on_connection(self._connection_changed)
 
     # --- commands ----------------------------------------------------------------------------
@@ -80,6 +83,15 @@ class ChargePoint:
             raise StationError("The connector stays locked while the station may give power.")
         self._lock(locked=False)
 
+    def limit(self, current_a: float) -> None:
+        """Let the car draw no more than this from each phase [A]."""
+        self._limit_a = current_a
+        if self._ramp is not None:
+            now_s = self._now()
+            power_w = self._ramp.power_w(now_s)
+            self._count_energy(self._ramp)
+            self._give_power(from_w=power_w)
+
     # --- what it shows -----------------------------------------------------------------------
 
     @property
@@ -88,6 +100,11 @@ class ChargePoint:
         if not self.connected:
             return PilotState.A
         return PilotState.C if self._ramp is not None or self._closing else PilotState.B
+
+    @property
+    def contactor_closed(self) -> bool:
+        """The power contacts are closed."""
+        return self._ramp is not None
 
     def snapshot(self) -> StationSnapshot:
         """What the station measures at this moment."""
@@ -124,21 +141,33 @@ class ChargePoint:
 
     def _close_contactor(self) -> None:
         self._closing = None
+        self._give_power(from_w=0.0)
+        self.on_contactor(True)
+
+    def _give_power(self, from_w: float) -> None:
+        """Ramp from one power to what limit and cable allow, until the car is full."""
         now_s = self._now()
         numbers = self._numbers
-        full_w = numbers.phases * numbers.voltage_v * numbers.current_a
-        self._ramp = PowerRamp(now_s, full_w, numbers.ramp_s)
+        current_a = min(numbers.current_a, self._limit_a)
+        full_w = numbers.phases * numbers.voltage_v * current_a
+        self._ramp = PowerRamp(now_s, full_w, numbers.ramp_s, from_w)
         full_in_s = self._ramp.reaches_s(self._world.wanted_wh) - now_s
+        if self._full is not None:
+            self._full.cancel()
         self._full = self._later(full_in_s, self._car_is_full)
+
+    def _count_energy(self, ramp: PowerRamp) -> None:
+        energy_wh = ramp.energy_wh(self._now())
+        self._energy_before_wh += energy_wh
+        self._world.wanted_wh = max(self._world.wanted_wh - energy_wh, 0.0)
 
     def _open_contactor(self) -> None:
         self._opening = None
         if self._ramp is None:
             return
-        energy_wh = self._ramp.energy_wh(self._now())
-        self._energy_before_wh += energy_wh
-        self._world.wanted_wh = max(self._world.wanted_wh - energy_wh, 0.0)
+        self._count_energy(self._ramp)
         self._ramp = None
+        self.on_contactor(False)
         if self._full is not None:
             self._full.cancel()
             self._full = None
@@ -169,7 +198,7 @@ class ChargePoint:
         self._lock(locked=False)
 
     def _lock(self, *, locked: bool) -> None:
-        if self.locked != locked:
+        if self.locked != locked and self._numbers.car_locks:
             self.locked = locked
             self._world.lock_connector(locked=locked, now_s=self._now())
 

@@ -210,6 +210,8 @@ class StationParameters(Parameters):
     answer_s: NotNegative = Field(0.03, description="one way")
     timeout_s: Positive = Field(3.0, description="a hanging station is given up after this")
     current_noise_std: Spread = Field(0.002, description="relative")
+    holds: bool = Field(default=True, description="it can keep the power off against others")
+    car_locks: bool = Field(default=True, description="the car latches the plug while it charges")
 
 
 class SimulationParameters(Parameters):

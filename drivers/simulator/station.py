@@ -9,7 +9,13 @@ from typing import Any
 
 from drivers.simulator.charge_point import ChargePoint
 from drivers.simulator.world import SimulatedWorld
-from drivers.station import StationCapabilities, StationError, StationSnapshot
+from drivers.station import (
+    StationAnswerError,
+    StationCapabilities,
+    StationError,
+    StationSnapshot,
+    StationUnreachableError,
+)
 
 
 class SimulatedStation:
@@ -26,6 +32,8 @@ class SimulatedStation:
         self._hanging = False
         self._lies: dict[str, Any] = {}
         self._frozen: StationSnapshot | None = None
+        self._failure: StationError | None = None
+        self._clock_error_s = 0.0
         self._restart_after_s: float | None = None
         self._point.on_idle = self._restart_later
 
@@ -39,7 +47,9 @@ class SimulatedStation:
     @property
     def capabilities(self) -> StationCapabilities:
         """It can do everything."""
-        return StationCapabilities(switches=True, holds=True, unlocks=True)
+        return StationCapabilities(
+            switches=True, holds=self._numbers.holds, unlocks=True, limits_current=True
+        )
 
     async def open(self) -> None:
         """Connect to the station."""
@@ -92,6 +102,19 @@ class SimulatedStation:
         self._require_open()
         await self._answer(self._point.unlock)
 
+    async def limit_current(self, current_a: float) -> None:
+        """Let the car draw no more than this from each phase [A]."""
+        self._require_open()
+        await self._answer(lambda: self._point.limit(current_a))
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """It only answers, and so never calls ``listener``."""
+
+    @property
+    def point(self) -> ChargePoint:
+        """Its hardware, for rivals and witnesses who stand beside it."""
+        return self._point
+
     # --- fault injection ---------------------------------------------------------------------
 
     def hang(self) -> None:
@@ -111,11 +134,25 @@ class SimulatedStation:
         """Repeat the snapshot of this moment for ever, its time included."""
         self._frozen = self._point.snapshot()
 
+    def drop(self) -> None:
+        """Nobody listens at its address any more; the power stays as it is."""
+        self._failure = StationUnreachableError(f"{self.name} is gone; check its network.")
+
+    def answer_html(self) -> None:
+        """A proxy answers in its place, with a page for people."""
+        self._failure = StationAnswerError(f"{self.name} answered '<!DOCTYPE html>'.")
+
+    def set_clock(self, error_s: float) -> None:
+        """Date all readings wrongly by so much from now on."""
+        self._clock_error_s = error_s
+
     def behave(self) -> None:
         """Answer again, with the truth."""
         self._hanging = False
         self._lies = {}
         self._frozen = None
+        self._failure = None
+        self._clock_error_s = 0.0
 
     def restart_by_itself(self, after_s: float = 0.5) -> None:
         """A hostile energy manager enables the station again soon after it went off.
@@ -144,7 +181,9 @@ class SimulatedStation:
     def _read(self) -> StationSnapshot:
         if self._frozen is not None:
             return self._frozen
-        return replace(self._point.snapshot(), **self._lies)
+        truth = self._point.snapshot()
+        sampled_at_s = truth.sampled_at_s + self._clock_error_s
+        return replace(truth, **{"sampled_at_s": sampled_at_s, **self._lies})
 
     async def _answer(self, action: Callable[[], None]) -> None:
         """Do something at the station, with the time that its network takes."""
@@ -152,6 +191,8 @@ class SimulatedStation:
             await asyncio.sleep(self._numbers.timeout_s)
             raise StationError(f"{self.name} did not answer; check its network and power.")
         await asyncio.sleep(self._numbers.answer_s)
+        if self._failure is not None:
+            raise self._failure
         action()
         await asyncio.sleep(self._numbers.answer_s)
 

@@ -34,6 +34,9 @@ from twin.motion.segments import Segment
 HISTORY_S = 2.0
 """How far back the camera may look."""
 
+TIGHT_SHARE = 0.75
+"""Of the force limit: at a stall with less, the board does not trust its encoder."""
+
 ConnectionListener = Callable[[bool, float], None]
 """Called with whether the pilot contact is made, and when it changed [s]."""
 
@@ -218,6 +221,11 @@ class SimulatedWorld:
             return math.copysign(self._force_limit_n, wanted_mm)
         friction_n = self.parameters.drives.friction_n * float(np.sign(state.velocity.rho3_mm_s))
         return (state.contact.force_n + friction_n) * self._force_scale
+
+    def pushes_tight(self, state: PlantState) -> bool:
+        """The slide was seen to slow down: it rests against a force near its limit."""
+        load_n = abs(state.contact.force_n) + self.parameters.drives.friction_n
+        return load_n * self._force_scale >= TIGHT_SHARE * self._force_limit_n
 
     def follow(self, segments: Sequence[Segment], now_s: float) -> None:
         """Put segments behind those that the set point already follows."""

@@ -7,9 +7,14 @@ station is held; on the way back the station is released first, then the manager
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import replace
 
-from drivers.station.errors import StationHeldError, StationSilentError
+from drivers.station.errors import (
+    StationHeldError,
+    StationSilentError,
+    StationUnsupportedError,
+)
 from drivers.station.protocol import StationCapabilities, StationDriver, StationSnapshot
 
 LOOK_AGAIN_S = 0.25
@@ -41,8 +46,15 @@ class ManagedStation:
     @property
     def capabilities(self) -> StationCapabilities:
         """Those of the station. With its only rival off, a switched-off station is held."""
-        own = self._station.capabilities
-        return replace(own, holds=own.holds or own.switches)
+        own, manager = self._station.capabilities, self._manager.capabilities
+        waiting_s = self._lets_go_s + LOOK_AGAIN_S + manager.reads_within_s
+        return replace(
+            own,
+            holds=own.holds or own.switches,
+            limits_current=False,  # the manager decides that all the time
+            reads_within_s=manager.reads_within_s + own.reads_within_s,
+            acts_within_s=manager.acts_within_s + waiting_s + own.acts_within_s,
+        )
 
     async def open(self) -> None:
         """Connect to both, even if one is not there.
@@ -110,6 +122,21 @@ class ManagedStation:
     async def unlock(self) -> None:
         """Open the connector lock of the station."""
         await self._station.unlock()
+
+    async def limit_current(self, current_a: float) -> None:
+        """The manager would change it again at once.
+
+        Raises:
+            StationUnsupportedError: always.
+        """
+        raise StationUnsupportedError(
+            f"{self._manager.name} decides about the current: limit it to {current_a:g} A there."
+        )
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call ``listener`` with the news of both."""
+        self._manager.listen(listener)
+        self._station.listen(listener)
 
     async def _until_manager_lets_go(self) -> None:
         loop = asyncio.get_running_loop()

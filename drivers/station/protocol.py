@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
@@ -27,6 +28,9 @@ class StationCapabilities:
     unlocks: bool  # unlock() opens the connector lock
     fresh: bool = True  # a reading is as new as the question
     senses_car: bool = True  # the pilot state shows whether a car is connected
+    limits_current: bool = False  # limit_current() is obeyed
+    reads_within_s: float = 3.0  # snapshot() has answered or failed by then
+    acts_within_s: float = 3.0  # so has every other call
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +70,10 @@ class StationSnapshot:
 
 
 class StationDriver(Protocol):
-    """A charging station. Calls raise StationError within 3 s when it does not answer."""
+    """A charging station.
+
+    Calls raise StationError when it does not answer, within the times of its capabilities.
+    """
 
     @property
     def name(self) -> str:
@@ -108,4 +115,19 @@ class StationDriver(Protocol):
 
     async def unlock(self) -> None:
         """Open the connector lock."""
+        ...
+
+    async def limit_current(self, current_a: float) -> None:
+        """Let the car draw no more than this from each phase [A], until it is changed.
+
+        Raises:
+            StationUnsupportedError: this kind of station cannot do that.
+        """
+        ...
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call ``listener`` whenever the station tells by itself that something has changed.
+
+        Stations that only answer never do. Nothing may be concluded from it: read the station.
+        """
         ...

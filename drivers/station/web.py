@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TypedDict, TypeVar
 
 import httpx
 from pydantic import BaseModel, ConfigDict, JsonValue, ValidationError
@@ -23,6 +23,8 @@ from drivers.station.errors import (
 logging.getLogger("httpx").setLevel(logging.WARNING)
 
 LARGEST_ANSWER = 1_000_000
+MARGIN_S = 0.5
+"""For what is done between the calls."""
 ATTEMPTS = 2
 """A connection that was kept open may have been dropped by the device since."""
 
@@ -49,6 +51,13 @@ class Reply:
     content: bytes
 
 
+class CallBounds(TypedDict):
+    """The part of the capabilities that follows from the time limit of one call [s]."""
+
+    reads_within_s: float
+    acts_within_s: float
+
+
 class WebDevice:
     """One device, spoken to by HTTP. Calls may be repeated once: all of ours can be.
 
@@ -72,6 +81,18 @@ class WebDevice:
     def is_open(self) -> bool:
         """Between open() and close()."""
         return self._client is not None
+
+    def bounds(self, reading_calls: int, acting_calls: int) -> CallBounds:
+        """How long snapshot() and the other calls of a driver take at most.
+
+        Args:
+            reading_calls: Calls that snapshot() makes.
+            acting_calls: Calls that the longest of the others makes.
+        """
+        return CallBounds(
+            reads_within_s=reading_calls * self._timeout_s + MARGIN_S,
+            acts_within_s=acting_calls * self._timeout_s + MARGIN_S,
+        )
 
     def open(self) -> None:
         """Make ready; no connection is made yet."""

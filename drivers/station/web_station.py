@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 
+from drivers.station.errors import StationUnsupportedError
 from drivers.station.web import WebDevice
 
 
@@ -36,6 +38,20 @@ class WebStation(ABC):
     async def close(self) -> None:
         """Disconnect; the station goes on by itself. Safe to call twice."""
         await self._web.close()
+
+    async def limit_current(self, current_a: float) -> None:
+        """Most cannot; those that can say so in their capabilities.
+
+        Raises:
+            StationUnsupportedError: it cannot.
+        """
+        raise StationUnsupportedError(
+            f"{self.name} cannot be limited to {current_a:g} A from here: set it at the station."
+        )
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Most only answer, and so never call ``listener``."""
+        del listener
 
     @abstractmethod
     async def _look(self) -> None:

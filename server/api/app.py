@@ -12,7 +12,20 @@ from fastapi import APIRouter, FastAPI
 from server.api.contract import describe
 from server.api.pages import pages_router
 from server.api.problems import ANY_PROBLEM, install_handlers
-from server.api.routes import camera, health, jobs, live, recordings, robot, station, vehicles
+from server.api.routes import (
+    camera,
+    charge_point,
+    config,
+    events,
+    health,
+    jobs,
+    live,
+    recordings,
+    robot,
+    station,
+    vehicles,
+    webhooks,
+)
 from server.api.twin import twin_router
 from server.services import Services
 from server.version import VERSION
@@ -48,7 +61,20 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         redoc_url=None,
     )
     api = APIRouter(prefix=PREFIX, responses=ANY_PROBLEM)
-    for module in (health, robot, jobs, recordings, vehicles, station, camera, live):
+    for module in (
+        health,
+        robot,
+        jobs,
+        recordings,
+        vehicles,
+        station,
+        charge_point,
+        camera,
+        events,
+        webhooks,
+        config,
+        live,
+    ):
         api.include_router(module.router)
     app.include_router(api)
     if twin is not None:

@@ -6,6 +6,10 @@ RequestError
 ├── NotFoundError        there is nothing at this address
 ├── MethodError          the address does not take this method
 ├── InvalidCursorError   the cursor is not one of ours
+├── BodyTooLargeError    the body is larger than any that makes sense
+├── BodyTooSlowError     the body did not arrive in time
+├── PreconditionRequiredError  a change needs If-Match
+├── PreconditionFailedError    somebody else has changed it meanwhile
 └── CameraFailedError    the camera does not deliver
 """
 
@@ -63,6 +67,42 @@ class InvalidCursorError(RequestError):
     code = "invalid_cursor"
     title = "This cursor is not valid"
     remedy = "Start again without a cursor."
+
+
+class BodyTooLargeError(RequestError):
+    """The body is larger than any that makes sense."""
+
+    code = "body_too_large"
+    title = "The body is too large"
+    status = 413
+    remedy = "Send less; no request needs more than a few kilobytes."
+
+
+class BodyTooSlowError(RequestError):
+    """The body did not arrive in time."""
+
+    code = "body_too_slow"
+    title = "The body did not arrive in time"
+    status = 408
+    remedy = "Check the network, then send the request again."
+
+
+class PreconditionRequiredError(RequestError):
+    """A change needs If-Match."""
+
+    code = "precondition_required"
+    title = "Which version is to be changed?"
+    status = 428
+    remedy = "Read it first, and send its ETag as If-Match."
+
+
+class PreconditionFailedError(RequestError):
+    """Somebody else has changed it meanwhile."""
+
+    code = "precondition_failed"
+    title = "Somebody has changed this meanwhile"
+    status = 412
+    remedy = "Read it again, look what is different, and repeat the change with the new ETag."
 
 
 class CameraFailedError(RequestError):

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, get_args
 
-from pydantic import BaseModel
+from pydantic import BaseModel, SecretStr
 from pydantic_core import ErrorDetails
 
 from server.config.layers import Entry, Key
 from server.config.settings import Settings
+
+HIDDEN = "(hidden)"
+_LOGIN_IN_ADDRESS = re.compile(r"(//)[^/@\s]*@")
 
 
 def describe(problem: ErrorDetails, entries: Sequence[Entry]) -> str:
@@ -25,7 +29,29 @@ def describe(problem: ErrorDetails, entries: Sequence[Entry]) -> str:
     if isinstance(given, dict) or not key:
         # the parts of a table do not fit together: the sentence of the check names them
         return f"{dotted or 'settings'}{origin}: {_wording(problem)}"
-    return f"{dotted} = {_as_toml(given)}{origin}: {_wording(problem)}"
+    shown = HIDDEN if is_secret(key) else _as_toml(given)
+    return f"{dotted} = {shown}{origin}: {_wording(problem)}"
+
+
+def is_secret(key: Key, model: type[BaseModel] = Settings) -> bool:
+    """Whether the values of a setting, or of something inside it, must not be shown."""
+    tables: list[type[BaseModel]] = [model]
+    for name in key:
+        annotations = [
+            table.model_fields[name].annotation for table in tables if name in table.model_fields
+        ]
+        types = [part for annotation in annotations for part in _parts(annotation)]
+        if SecretStr in types:
+            return True
+        tables = [part for part in types if isinstance(part, type) and issubclass(part, BaseModel)]
+    return False
+
+
+def _parts(annotation: object) -> Iterator[object]:
+    """A type and everything that it is made of: `SecretStr | None` has two parts."""
+    yield annotation
+    for part in get_args(annotation):
+        yield from _parts(part)
 
 
 def known_keys(model: type[BaseModel] = Settings, above: Key = ()) -> Iterator[Key]:
@@ -66,4 +92,7 @@ def _wording(problem: ErrorDetails) -> str:
 
 
 def _as_toml(value: Any) -> str:  # noqa: ANN401 - anything a file or a person can give
-    return json.dumps(value, default=str, ensure_ascii=False)
+    if isinstance(value, list | tuple) and any(isinstance(part, dict) for part in value):
+        return "a list of tables"  # which may hold a secret
+    text = json.dumps(value, default=str, ensure_ascii=False)
+    return _LOGIN_IN_ADDRESS.sub(rf"\1{HIDDEN}@", text)

@@ -8,7 +8,9 @@ from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
 from server.config.camera import CameraSettings
+from server.config.charge_point import ChargePointSettings
 from server.config.insertion import InsertionSettings
+from server.config.jobs import JobSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
 from server.config.recordings import RecordingSettings
@@ -17,6 +19,8 @@ from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
+from server.config.webhooks import WebhookSettings
+from server.config.supervision import SupervisionSettings
 from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
@@ -50,8 +54,12 @@ class Settings(BaseSettings):
     camera: CameraSettings = Field(default_factory=CameraSettings)
     station: StationSettings = StationSettings()
     insertion: InsertionSettings = InsertionSettings()
+    supervision: SupervisionSettings = SupervisionSettings()
     park: ParkSettings = ParkSettings()
+    jobs: JobSettings = JobSettings()
     recordings: RecordingSettings = RecordingSettings()
+    charge_point: ChargePointSettings = ChargePointSettings()
+    webhooks: WebhookSettings = WebhookSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
 

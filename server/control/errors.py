@@ -6,13 +6,21 @@ ControlError
 ├── RobotOfflineError            no link to the motion board
 ├── RobotNotReadyError           drives off or not homed
 ├── RobotStoppedError            a protective stop is in force
+│   ├── TelemetryStaleError      nobody knew where the robot was
+│   └── ReleaseRefusedError      the stop cannot be released yet
 ├── EmergencyStoppedError        an emergency stop is latched
-├── RobotFaultError              the motion board latched a fault
-│   └── FaultRemainsError        it cannot be released: its cause is still there
+├── RobotFaultError              the motion board latched a fault, or should have
+│   ├── FaultRemainsError        it cannot be released: its cause is still there
+│   ├── SlideStalledError        the slide does not move although it is told to
+│   └── FollowingError           the slide is not where it should be
 ├── MotionRefusedError           the board refused the motion
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
 ├── MotionOutOfReachError        joint limit, workspace or singularity
-└── ForceLimitError              the insertion force went over its limit
+├── ForceLimitError              the force along the insertion axis went over its limit
+│   └── ForceAboveBandError      it is more than the plug may meet at this depth
+├── ForceBelowBandError          it is less: the plug is not in the socket
+├── StillUnderLoadError          current flows, or may at any moment: the plug stays where it is
+└── StationUnsafeError           nobody can tell whether current flows
 """
 
 from __future__ import annotations
@@ -69,6 +77,26 @@ class RobotStoppedError(ControlError):
     remedy = "Check that the way is clear, then release the stop."
 
 
+class TelemetryStaleError(RobotStoppedError):
+    """A moving robot was stopped because the news of it were too old."""
+
+    code = "telemetry_stale"
+    title = "The robot was stopped because nobody knew where it was"
+    status = 503
+    remedy = (
+        "Check the USB cable of the motion board. The stop ends by itself when the plug is free "
+        "and the news come in time again; otherwise release it here."
+    )
+
+
+class ReleaseRefusedError(RobotStoppedError):
+    """A stop cannot be released, because something still speaks against it."""
+
+    code = "release_refused"
+    title = "The stop cannot be released yet"
+    remedy = "Wait a moment, look at the robot, then release the stop again."
+
+
 class EmergencyStoppedError(ControlError):
     """An emergency stop is latched."""
 
@@ -93,6 +121,28 @@ class FaultRemainsError(RobotFaultError):
     remedy = (
         "Remove the cause first: unlock the emergency-stop button, take away what blocks the "
         "robot, or have the switch mended. Then release it again."
+    )
+
+
+class SlideStalledError(RobotFaultError):
+    """The slide does not move although it is told to."""
+
+    code = "slide_stalled"
+    title = "The plug's slide does not move"
+    remedy = (
+        "Look for something that blocks the plug. If nothing does, have the slide's motor and its "
+        "encoder checked."
+    )
+
+
+class FollowingError(RobotFaultError):
+    """The slide is not where it should be."""
+
+    code = "following_error"
+    title = "The plug's slide does not follow"
+    remedy = (
+        "Look for something that brakes or pushes the plug. If nothing does, have the slide's "
+        "motor and its encoder checked."
     )
 
 
@@ -126,3 +176,35 @@ class ForceLimitError(ControlError):
     code = "force_limit"
     title = "The plug met too much resistance"
     remedy = "Check that nothing is in the socket or in the way of the plug."
+
+
+class ForceAboveBandError(ForceLimitError):
+    """The force is more than a plug may meet at this depth of its socket."""
+
+    code = "force_above_band"
+    title = "The plug meets more resistance than it should at this depth"
+
+
+class ForceBelowBandError(ControlError):
+    """The force is less than any socket gives at this depth."""
+
+    code = "force_below_band"
+    title = "The plug meets no socket"
+    remedy = "Look where the plug went, and whether the car has moved."
+
+
+class StillUnderLoadError(ControlError):
+    """Current flows, or may at any moment: the plug must not move in its socket."""
+
+    code = "under_load"
+    title = "The charging current does not stop"
+    remedy = "Switch the charging station off, then press Unplug again."
+
+
+class StationUnsafeError(ControlError):
+    """The station does not answer as it should: nobody can tell whether current flows."""
+
+    code = "station_unsafe"
+    title = "The charging station does not answer as it should"
+    status = 502
+    remedy = "Check that the charging station has power and is connected to the network."

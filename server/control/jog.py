@@ -53,7 +53,10 @@ class Jog:
         Raises:
             ControlError: somebody else has control, or the robot may not or cannot go there.
         """
-        async with self._supervisor.control("jog", "A technician") as lease:
+        async with (
+            self._supervisor.control("jog", "A technician") as lease,
+            self._supervisor.plug_may_move(),
+        ):
             await self._supervisor.follow(lease, self._plan(axis, distance_mm, speed_mm_s))
 
     def hold(self, axis: Axis, direction: int, speed_mm_s: float) -> None:
@@ -99,7 +102,8 @@ class Jog:
 
     async def _move(self, motion: Motion) -> None:
         try:
-            await self._supervisor.run(motion)
+            async with self._supervisor.plug_may_move():
+                await self._supervisor.run(motion)
         except PlugPilotError as error:
             _log.warning("jogging ended: %s", error.detail)
 

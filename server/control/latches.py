@@ -1,6 +1,8 @@
-"""What a person latches by pressing stop, and what releases it."""
+"""What latches a stop, and what releases it."""
 
 from __future__ import annotations
+
+from server.control.stop_cause import PRESSED, StopCause
 
 
 class Latches:
@@ -8,16 +10,28 @@ class Latches:
 
     Releasing takes its time. A stop that is pressed meanwhile must not be released with the one
     before, so presses are counted.
+
+    Attributes:
+        cause: Why the protective stop is in force; None while there is none. What a person
+            pressed is never replaced by what a watchdog found.
+        emergency: The emergency stop is in force.
+        presses: How often anything was latched.
     """
 
     def __init__(self) -> None:
-        self.stopped = False
+        self.cause: StopCause | None = None
         self.emergency = False
         self.presses = 0
 
-    def press_stop(self) -> None:
+    @property
+    def stopped(self) -> bool:
+        """A protective stop is in force."""
+        return self.cause is not None
+
+    def press_stop(self, cause: StopCause = PRESSED) -> None:
         """Latch the protective stop."""
-        self.stopped = True
+        if self.cause is None or not self.cause.by_person:
+            self.cause = cause
         self.presses += 1
 
     def press_emergency_stop(self) -> None:
@@ -33,5 +47,5 @@ class Latches:
         """
         if self.presses != presses:
             return False
-        self.stopped = self.emergency = False
+        self.cause, self.emergency = None, False
         return True

@@ -13,6 +13,7 @@ from server.control.errors import (
 )
 from server.control.faults import words_for
 from server.control.model import RobotMode
+from server.control.stop_cause import StopCause
 
 
 def derive_mode(state: RobotState | None, *, stopped: bool, emergency: bool) -> RobotMode:
@@ -46,13 +47,23 @@ def derive_mode(state: RobotState | None, *, stopped: bool, emergency: bool) -> 
             return RobotMode.READY if state.homed else RobotMode.NOT_HOMED
 
 
-def why_not_moving(mode: RobotMode, state: RobotState | None) -> ControlError | None:
-    """The error that stands in the way of any motion in this mode, or None."""
+def why_not_moving(
+    mode: RobotMode, state: RobotState | None, cause: StopCause | None = None
+) -> ControlError | None:
+    """The error that stands in the way of any motion in this mode, or None.
+
+    Args:
+        mode: What the robot is doing.
+        state: The newest sample.
+        cause: Why a protective stop is in force.
+    """
     match mode:
         case RobotMode.OFFLINE:
             return RobotOfflineError("The motion board does not answer.")
         case RobotMode.EMERGENCY_STOP:
             return EmergencyStoppedError("The emergency stop is latched.")
+        case RobotMode.STOPPED | RobotMode.STOPPING if cause is not None:
+            return cause.as_error()
         case RobotMode.STOPPED:
             return RobotStoppedError("Somebody stopped the robot, and the stop is still in force.")
         case RobotMode.STOPPING:
@@ -81,8 +92,10 @@ def why_fault_ends_motion(state: RobotState) -> ControlError | None:
     return why_not_moving(RobotMode.FAULT, state)
 
 
-def why_not_preparing(mode: RobotMode, state: RobotState | None) -> ControlError | None:
+def why_not_preparing(
+    mode: RobotMode, state: RobotState | None, cause: StopCause | None = None
+) -> ControlError | None:
     """The error that stands in the way of switching the drives on or homing, or None."""
     if mode in {RobotMode.OFF, RobotMode.NOT_HOMED, RobotMode.HOMING}:
         return None
-    return why_not_moving(mode, state)
+    return why_not_moving(mode, state, cause)

@@ -11,39 +11,36 @@ from collections.abc import AsyncIterator, Callable
 
 from drivers.robot import (
     BoardFault,
-    BoardState,
     FaultCode,
     RobotDriver,
     RobotDriverError,
     RobotState,
     StopCategory,
 )
+from drivers.station import StationDriver
+from server.config.supervision import SupervisionSettings
 from server.control import modes
 from server.control.board import Board, OnSegments
-from server.control.errors import (
-    EmergencyStoppedError,
-    LateralMotionForbiddenError,
-    RobotOfflineError,
-    RobotStoppedError,
-)
+from server.control.errors import ControlError, LateralMotionForbiddenError
 from server.control.evidence import settle_plug
-from server.control.latches import Latches
 from server.control.lease import Lease, LeaseDesk
 from server.control.link import RobotLink
 from server.control.listeners import Listeners
+from server.control.load_guard import LoadGuard
 from server.control.model import Holder, HolderKind, RobotMode
-from server.control.motion import Motion, Watch
-from server.control.path_check import check_path
+from server.control.mover import Mover
 from server.control.plug_guard import HELD, PlugGuard, PlugStore
+from server.control.protection import Protection
+from server.control.release import ReleaseCondition
+from server.control.stop_cause import StopCause
 from server.control.telemetry import Telemetry
 from server.timing import Calendar
 from twin.geometry import RobotGeometry
-from twin.joints import JointPosition
-from twin.motion import JointState, MotionLimits, MotionPlan, plan_joint_move
+from twin.motion import MotionLimits
 
 
-class Supervisor:
-    """Owns the robot driver, the lease, the latches and the plug guard.
+class Supervisor(Mover):
+    """Owns the robot driver, the lease, the stops, the plug guard and the load guard.
 
     Args:
         driver: The motion board.
@@ -51,6 +48,8 @@ class Supervisor:
         limits: What motions are planned with.
         plug_store: Where the plug's state survives.
         calendar: Dates for what people see.
+        station: The charging station: the plug moves in a socket only while it shows no load.
+        settings: Of the watchdogs.
     """
 
     def __init__(
@@ -60,23 +59,35 @@ class Supervisor:
         limits: MotionLimits,
         plug_store: PlugStore,
         calendar: Calendar,
+        *,
+        station: StationDriver,
+        settings: SupervisionSettings,
     ) -> None:
-        self.geometry = geometry
-        self.limits = limits
-        self.telemetry = Telemetry()
-        self.plug = PlugGuard(plug_store, self._changed)
+        telemetry = Telemetry()
+        plug = PlugGuard(plug_store, self._changed)
+        board = Board(driver, telemetry, lambda: self.mode)
+        super().__init__(
+            board,
+            geometry,
+            limits,
+            plug,
+            LoadGuard(station, settings),
+            hindrance=self.why_not_moving,
+            identity=lambda: self._link.identity,
+        )
         self._driver = driver
-        self._board = Board(driver, self.telemetry, lambda: self.mode)
         self._desk = LeaseDesk(calendar)
-        self._latches = Latches()
-        self._motion: Motion | None = None
         self._listeners = Listeners()
+        self._protection = Protection(
+            driver, board, plug, settings, interrupt=self._interrupt, changed=self._changed
+        )
+        self._halt_now = self._protection.halt_now
         self._link = RobotLink(
             driver,
             self.telemetry,
             on_connected=lambda state: settle_plug(self.plug, state, first=True),
             on_sample=self._take_sample,
-            on_lost=self._changed,
+            on_lost=self._lost,
         )
 
     # What anyone may know
@@ -86,9 +97,23 @@ class Supervisor:
         """What the robot is doing."""
         return modes.derive_mode(
             self.telemetry.latest,
-            stopped=self._latches.stopped,
-            emergency=self._latches.emergency,
+            stopped=self._protection.cause is not None,
+            emergency=self._protection.emergency,
         )
+
+    @property
+    def stop_cause(self) -> StopCause | None:
+        """Why a protective stop is in force; None while there is none."""
+        return self._protection.cause
+
+    @property
+    def release_conditions(self) -> list[ReleaseCondition]:
+        """What must be so before a stop is released."""
+        return self._protection.conditions()
+
+    def why_not_moving(self) -> ControlError | None:
+        """What stands in the way of any motion, in words; None when nothing does."""
+        return modes.why_not_moving(self.mode, self.telemetry.latest, self.stop_cause)
 
     @property
     def holder(self) -> Holder | None:
@@ -110,11 +135,6 @@ class Supervisor:
     def link_trouble(self) -> RobotDriverError | None:
         """Why there is no link to the motion board."""
         return self._link.trouble
-
-    @property
-    def plan(self) -> MotionPlan | None:
-        """The plan of the motion under way, None while there is none."""
-        return self._motion.plan if self._motion else None
 
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` after every change, telemetry included."""
@@ -143,33 +163,15 @@ class Supervisor:
 
     async def stop(self) -> None:
         """Protective stop: category 2, in force until ``reset``."""
-        self._latches.press_stop()
-        self._interrupt(RobotStoppedError("Somebody pressed stop."))
-        self._changed()
-        await self._board.tell_to_stop(lambda: self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
+        await self._protection.stop()
 
     async def emergency_stop(self) -> None:
         """Emergency stop: category 1, latched until ``reset``."""
-        self._latches.press_emergency_stop()
-        self._interrupt(EmergencyStoppedError("Somebody pressed the emergency stop."))
-        self._changed()
-        await self._board.tell_to_stop(self._driver.emergency_stop)
+        await self._protection.emergency_stop()
 
     async def reset(self) -> None:
-        """Release stop, emergency stop and fault. Nothing moves by itself afterwards.
-
-        Raises:
-            RobotOfflineError: there is no link.
-            RobotFaultError: the cause of the fault is still there.
-            RobotStoppedError: somebody pressed stop again meanwhile.
-        """
-        presses = self._latches.presses
-        if self.telemetry.require().board is BoardState.FAULT:
-            await self._board.clear_fault()
-        released = self._latches.release(presses)
-        self._changed()
-        if not released:
-            raise RobotStoppedError("Somebody pressed stop again while it was being released.")
+        """Release stop, emergency stop and fault; see ``Protection.reset``. Nothing moves."""
+        await self._protection.reset()
 
     # Control
 
@@ -231,14 +233,25 @@ class Supervisor:
         """Home although the plug may be in a socket: the way out when nothing else is known.
 
         The board retracts the plug to its switch first, under the force limit, and moves
-        sideways only when that succeeded. The caller has made sure that no current flows.
-        Whatever ends it early brings the robot to rest first.
+        sideways only when that succeeded. Whatever ends it early brings the robot to rest first.
+
+        Raises:
+            StillUnderLoadError, StationUnsafeError: the plug may be in a socket, and it is not
+                proven (``plug_may_move``) that no current flows.
         """
         lease.require()
         self._refuse_when_stopped()
         await self.plug.about_to_leave_park()
         self._refuse_when_stopped()  # somebody may have pressed stop meanwhile
-        await self._board.home()
+        self._require_no_load()
+        self._homing = True
+        try:
+            await self._board.home()
+        except ControlError:
+            self._require_no_load()  # the alarm is the reason
+            raise
+        finally:
+            self._homing = False
         await self.plug.is_free()
 
     async def halt(self, lease: Lease) -> None:
@@ -246,103 +259,40 @@ class Supervisor:
         lease.require()
         await self._board.command(lambda: self._driver.stop(StopCategory.DECELERATE_AND_HOLD))
 
-    async def release_stall(self, lease: Lease) -> None:
-        """Release the fault of a slide that pushed in vain, so that it can be drawn back.
-
-        Any other fault stays latched, and so does a stop: those are for a person to release.
+    async def release_fault(self, lease: Lease, *codes: FaultCode) -> None:
+        """Release one of these faults; any other, and a stop, are for a person to release.
 
         Raises:
             RobotFaultError: the board keeps the fault.
         """
         lease.require()
-        if self.fault is not None and self.fault.code is FaultCode.STALL:
+        if self.fault is not None and self.fault.code in codes:
             await self._board.clear_fault()
+
+    async def release_stall(self, lease: Lease) -> None:
+        """Release the fault of a slide that pushed in vain, so that it can be drawn back."""
+        await self.release_fault(lease, FaultCode.STALL)
 
     async def set_force_limit(self, lease: Lease, force_n: float) -> None:
         """Cap the insertion force on the board [N]."""
         lease.require()
         await self._board.command(lambda: self._driver.set_force_limit(force_n))
 
-    def start_motion(
-        self,
-        lease: Lease,
-        plan: MotionPlan,
-        watch: Watch | None = None,
-        *,
-        changeable: bool = False,
-    ) -> Motion:
-        """Check a plan along its whole length and prepare its execution (``run``).
-
-        Raises:
-            ControlError: the robot is not ready, the plug forbids it, or it leaves the limits.
-        """
-        lease.require()
-        problem = modes.why_not_moving(self.mode, self.telemetry.latest)
-        if problem is not None:
-            raise problem
-        check_path(self.geometry, self.plug, plan)
-        if self._link.identity is None:
-            raise RobotOfflineError("The motion board has not identified itself yet.")
-        self._motion = Motion(self._board, self._link.identity, plan, watch, changeable=changeable)
-        return self._motion
-
-    async def run(self, motion: Motion) -> RobotState:
-        """Execute a prepared motion to its end and return the last sample."""
-        try:
-            await self.plug.about_to_leave_park()
-            return await motion.run()
-        finally:
-            self.plug.motion_ended()
-            self._motion = None if self._motion is motion else self._motion
-
-    async def follow(
-        self, lease: Lease, plan: MotionPlan, watch: Watch | None = None
-    ) -> RobotState:
-        """Check and execute a plan to its end and return the last sample."""
-        return await self.run(self.start_motion(lease, plan, watch))
-
-    async def move_joints(
-        self, lease: Lease, target: JointPosition, watch: Watch | None = None
-    ) -> RobotState:
-        """Move all joints together to a target, as fast as the limits allow."""
-        start = self.telemetry.require().commanded.position
-        return await self.follow(lease, plan_joint_move(self.limits, start, target), watch)
-
-    def retarget(self, motion: Motion, target: JointPosition) -> None:
-        """Bend a running joint move to another target without stopping.
-
-        Raises:
-            ControlError: the new way is not allowed; the old one goes on.
-        """
-
-        def replan(start: JointState) -> MotionPlan:
-            plan = plan_joint_move(self.limits, start, target)
-            check_path(self.geometry, self.plug, plan)
-            return plan
-
-        motion.retarget(replan)
-
     # Inside
 
     def _refuse_when_stopped(self) -> None:
-        problem = modes.why_not_preparing(self.mode, self.telemetry.latest)
+        problem = modes.why_not_preparing(self.mode, self.telemetry.latest, self.stop_cause)
         if problem is not None:
             raise problem
 
-    def _interrupt(self, reason: Exception) -> None:
-        if self._motion is not None:
-            self._motion.interrupt(reason)
-
     async def _take_sample(self, state: RobotState) -> None:
-        self._notice_fault(state)
+        self._protection.take(state)
         await settle_plug(self.plug, state, first=False)
         self._changed()
 
-    def _notice_fault(self, state: RobotState) -> None:
-        problem = modes.why_fault_ends_motion(state)
-        if problem is not None:
-            self._latches.emergency |= isinstance(problem, EmergencyStoppedError)
-            self._interrupt(problem)
+    def _lost(self) -> None:
+        self._protection.lose()
+        self._changed()
 
     def _changed(self) -> None:
         self._listeners.tell()

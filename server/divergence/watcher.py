@@ -10,6 +10,7 @@ from drivers.camera import Frame
 from drivers.robot import BoardState, RobotState
 from server.control.model import PlugState
 from server.control.supervisor import Supervisor
+from server.jobs.model import JobState
 from server.jobs.runner import JobRunner
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
@@ -88,7 +89,7 @@ class DivergenceWatcher:
         job = self._runner.newest
         if job is None:
             return
-        if job.id != self._job_id and not job.state.ended:
+        if job.id != self._job_id and job.state is JobState.RUNNING:
             self._job_id = job.id
             self._spread(self._watch.begin_job())
         phase = "" if job.state.ended else job.phase.value

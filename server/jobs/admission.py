@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from datetime import datetime
+
+from uuid6 import uuid7
+
 from server.control.model import PlugState, RobotMode
-from server.control.modes import why_not_moving
 from server.control.supervisor import Supervisor
 from server.jobs.errors import (
     IdempotencyReuseError,
@@ -11,8 +14,8 @@ from server.jobs.errors import (
     UnknownVehicleError,
     VehicleChoiceError,
 )
-from server.jobs.model import JobType
-from server.schema.jobs import Job, JobRequest
+from server.jobs.model import JobPhase, JobState, JobType
+from server.schema.jobs import Job, JobRequest, JobResult
 from server.schema.vehicles import Vehicle
 from server.storage.vehicles import VehicleStore
 
@@ -64,6 +67,40 @@ async def choose_vehicle(
     return known[0].id, known[0]
 
 
+async def require_vehicle(job: Job, vehicles: VehicleStore) -> Vehicle | None:
+    """The vehicle of a job that begins later than it was accepted; None if it needs none.
+
+    Raises:
+        UnknownVehicleError: it has been forgotten meanwhile.
+    """
+    vehicle = await vehicles.get(job.vehicle_id)
+    if vehicle is None and job.type is not JobType.UNPLUG:
+        raise UnknownVehicleError(
+            f"The vehicle {job.vehicle_id!r} is not known any more.", vehicle_id=job.vehicle_id
+        )
+    return vehicle
+
+
+def queued(request: JobRequest, vehicle_id: str, now: datetime) -> Job:
+    """A new job, as it is accepted."""
+    return Job(
+        id=str(uuid7()),
+        type=request.type,
+        state=JobState.QUEUED,
+        phase=JobPhase.PREFLIGHT,
+        vehicle_id=vehicle_id,
+        target_energy_wh=request.target_energy_wh,
+        not_before=request.not_before,
+        unplug_by=request.unplug_by,
+        created_at=now,
+        updated_at=now,
+        phase_started_at=now,
+        cancel_requested=False,
+        result=JobResult(),
+        error=None,
+    )
+
+
 def refuse_if_impossible(job_type: JobType, supervisor: Supervisor) -> None:
     """Refuse what the robot's mode or the plug's place rules out.
 
@@ -73,7 +110,7 @@ def refuse_if_impossible(job_type: JobType, supervisor: Supervisor) -> None:
     """
     mode = supervisor.mode
     if mode not in CAN_BE_MADE_READY:
-        problem = why_not_moving(mode, supervisor.telemetry.latest)
+        problem = supervisor.why_not_moving()
         if problem is not None:
             raise problem
     plug = supervisor.plug.state

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from server.config.insertion import InsertionSettings
 from server.config.park import ParkSettings
@@ -14,28 +18,47 @@ from twin.joints import JointPosition, TipPosition
 from twin.kinematics import KinematicsError, gamma
 
 
-def tip_on_way_in(geometry: RobotGeometry, socket: SocketPose, depth_mm: float) -> TipPosition:
+class LateralOffset(NamedTuple):
+    """Beside the measured centre of the socket, across the insertion axis [mm]."""
+
+    right_mm: float
+    up_mm: float
+
+
+AT_THE_CENTRE = LateralOffset(0.0, 0.0)
+
+
+def tip_on_way_in(
+    geometry: RobotGeometry,
+    socket: SocketPose,
+    depth_mm: float,
+    offset: LateralOffset = AT_THE_CENTRE,
+) -> TipPosition:
     """Plug tip on the way in, ``depth_mm`` behind the socket's face (negative: before it).
 
-    The way in is the robot's own insertion axis through the centre of the face: the small tilt
-    of a parked car is taken up by the plug holder.
+    The way in is the robot's own insertion axis through the centre of the face, or ``offset``
+    beside it: the small tilt of a parked car is taken up by the plug holder.
     """
     place = np.array(socket.entry) + depth_mm * np.array(geometry.insertion_axis)
+    place += _across(geometry, offset)
     return TipPosition(*(float(c) for c in place))
 
 
 def pre_insertion(
-    geometry: RobotGeometry, socket: SocketPose, settings: InsertionSettings
+    geometry: RobotGeometry,
+    socket: SocketPose,
+    settings: InsertionSettings,
+    offset: LateralOffset = AT_THE_CENTRE,
 ) -> JointPosition:
-    """Joints with the plug before the socket, ready to go in.
+    """Joints with the plug before the socket, or ``offset`` beside that, ready to go in.
 
     Raises:
         SocketUnreachableError: the plug cannot get there, or from there not all the way in.
     """
     try:
-        gamma.inverse(geometry, tip_on_way_in(geometry, socket, settings.depth_mm))
+        gamma.inverse(geometry, tip_on_way_in(geometry, socket, settings.depth_mm, offset))
         return gamma.inverse(
-            geometry, tip_on_way_in(geometry, socket, -settings.pre_insertion_distance_mm)
+            geometry, tip_on_way_in(geometry, socket, -settings.pre_insertion_distance_mm, offset)
         )
     except KinematicsError as error:
         entry = socket.entry
@@ -93,11 +116,31 @@ def corridor(
     )
 
 
-def lateral_error_mm(geometry: RobotGeometry, at: JointPosition, socket: SocketPose) -> float:
-    """Distance between the plug's way and the socket's centre, across the insertion axis [mm]."""
+def lateral_error_mm(
+    geometry: RobotGeometry,
+    at: JointPosition,
+    socket: SocketPose,
+    offset: LateralOffset = AT_THE_CENTRE,
+) -> float:
+    """Distance of the plug's way from the aim, across the insertion axis [mm].
+
+    Args:
+        geometry: The robot.
+        at: Where it stands.
+        socket: Where the socket is.
+        offset: The aim is so far beside the socket's centre.
+    """
     axis = np.array(geometry.insertion_axis)
-    offset = np.array(gamma.forward(geometry, at)) - np.array(socket.entry)
-    return float(np.linalg.norm(offset - (offset @ axis) * axis))
+    away = np.array(gamma.forward(geometry, at)) - np.array(socket.entry)
+    away -= _across(geometry, offset)
+    return float(np.linalg.norm(away - (away @ axis) * axis))
+
+
+def _across(geometry: RobotGeometry, offset: LateralOffset) -> NDArray[np.float64]:
+    """An offset in the base frame, perpendicular to the insertion axis [mm]."""
+    theta = geometry.theta_rad
+    upwards = np.array([0.0, math.cos(theta), -math.sin(theta)])
+    return offset.right_mm * np.array([1.0, 0.0, 0.0]) + offset.up_mm * upwards
 
 
 def parking_joints(geometry: RobotGeometry, park: ParkSettings) -> JointPosition:

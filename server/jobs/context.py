@@ -14,6 +14,7 @@ from server.jobs.journal import Journal
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
 from server.schema.vehicles import Vehicle
+from server.timing import Calendar
 from twin.joints import JointPosition
 
 
@@ -31,6 +32,8 @@ class JobContext:
         journal: Of this job.
         accepted_at_s: Event loop time at which the job was accepted.
         start: Where the robot waited when its motion began.
+        calendar: Dates, for what is to happen by a certain time.
+        restarted: It was begun before PlugPilot was started.
         finish: Set when somebody wants the charging to end now.
         socket: The socket as last measured.
         energy_wh: Energy charged so far; None before the charging began.
@@ -46,6 +49,8 @@ class JobContext:
     journal: Journal
     accepted_at_s: float
     start: JointPosition
+    calendar: Calendar
+    restarted: bool = False
     finish: asyncio.Event = field(default_factory=asyncio.Event)
     socket: SocketPose | None = None
     energy_wh: float | None = None

@@ -1,24 +1,30 @@
 """Errors of jobs.
 
 JobError
-├── JobRunningError          another job is running
+├── JobQueueFullError        a job is running, and another one waits already
+├── JobWaitsForPersonError   the running job has asked a person something
 ├── JobNotFoundError         no such job
 ├── JobEndedError            the job has ended and cannot be changed
 ├── JobCancelledError        somebody cancelled the job
+├── JobInterruption          ends the phases for the time being (server/jobs/interruptions.py)
+├── CannotPauseError         the job cannot be paused in this phase
+├── NotPausedError           there is nothing to resume
+├── ScheduleError            the times of a job contradict each other or the clock
+├── ScheduleMissedError      it was too late to begin
 ├── NotChargingError         the job is not charging, so it cannot be finished
 ├── IdempotencyReuseError    the same key came with another request
 ├── UnknownVehicleError      no such vehicle
 ├── VehicleChoiceError       several vehicles, none chosen
 ├── VehicleInUseError        the vehicle's job is running
 ├── PlugStateError           the plug is not where the job needs it
-├── JobInterruptedError      PlugPilot was restarted while the job ran
+├── JobInterruptedError      a restart left the job behind, and it cannot go on
 ├── SocketTooSkewedError     the car stands too skewed for the plug
 ├── InsertionJammedError     the plug did not go in
 ├── InsertionDepthError      the plug stopped at the wrong depth
+├── PlugMissedError          the plug went where no socket is
 ├── NotConnectedError        the plug is in, but the station sees no car
 ├── StillLockedError         the connector did not let go
-├── StillUnderLoadError      current still flows, so the plug stays in
-└── StationUnsafeError       the station does not answer or reports a fault
+└── CarGoneError             the car left while it was plugged in
 """
 
 from __future__ import annotations
@@ -34,12 +40,20 @@ class JobError(PlugPilotError):
     status = 409
 
 
-class JobRunningError(JobError):
-    """Another job is running."""
+class JobQueueFullError(JobError):
+    """A job is running or set for later, and another one waits already."""
 
-    code = "job_running"
-    title = "The robot is already at work"
-    remedy = "Wait until the running job has ended, or cancel it."
+    code = "job_queue_full"
+    title = "Another job is waiting already"
+    remedy = "Wait until it has begun, or cancel it."
+
+
+class JobWaitsForPersonError(JobError):
+    """The running job has asked a person something, and nobody has answered."""
+
+    code = "job_needs_person"
+    title = "The running job waits for an answer"
+    remedy = "Resume or cancel the running job first."
 
 
 class JobNotFoundError(JobError):
@@ -64,6 +78,39 @@ class JobCancelledError(JobError):
 
     code = "cancelled"
     title = "The job was cancelled"
+    remedy = "Start a new job."
+
+
+class CannotPauseError(JobError):
+    """The job cannot be paused in this phase."""
+
+    code = "cannot_pause"
+    title = "The job cannot be paused now"
+    remedy = "Wait until the plug is out. Stop works at any time."
+
+
+class NotPausedError(JobError):
+    """The job neither is paused nor waits for a person."""
+
+    code = "not_paused"
+    title = "There is nothing to resume"
+    remedy = "Look at the job: it goes on by itself."
+
+
+class ScheduleError(JobError):
+    """The times of a job contradict each other or the clock."""
+
+    code = "schedule"
+    title = "These times do not fit together"
+    status = 422
+    remedy = "Choose a time in the future to unplug by, and an earlier one to begin."
+
+
+class ScheduleMissedError(JobError):
+    """It was too late to begin."""
+
+    code = "schedule_missed"
+    title = "It was too late to begin"
     remedy = "Start a new job."
 
 
@@ -119,10 +166,10 @@ class PlugStateError(JobError):
 
 
 class JobInterruptedError(JobError):
-    """PlugPilot was restarted while the job ran."""
+    """A restart left the job behind, and it cannot go on."""
 
     code = "interrupted"
-    title = "PlugPilot was restarted during the job"
+    title = "The job was interrupted and cannot go on"
     status = 500
     remedy = "Look at the robot. If the plug is in the car, unplug; otherwise start again."
 
@@ -151,6 +198,14 @@ class InsertionDepthError(JobError):
     remedy = "Unplug, check the socket, and try again."
 
 
+class PlugMissedError(JobError):
+    """The plug went in as deep as it should, but met no socket there."""
+
+    code = "plug_missed"
+    title = "The plug met no socket"
+    remedy = "Look whether the car has moved and the label sits where it was measured."
+
+
 class NotConnectedError(JobError):
     """The plug is in, but the station sees no car."""
 
@@ -167,18 +222,12 @@ class StillLockedError(JobError):
     remedy = "Unlock the car, then press Unplug again."
 
 
-class StillUnderLoadError(JobError):
-    """Current still flows, so the plug stays in."""
+class CarGoneError(JobError):
+    """The station lost the car, or the plug moved, while it should have rested in the socket."""
 
-    code = "under_load"
-    title = "The charging current does not stop"
-    remedy = "Switch the charging station off, then press Unplug again."
-
-
-class StationUnsafeError(JobError):
-    """The station does not answer or reports a fault."""
-
-    code = "station_unsafe"
-    title = "The charging station does not answer as it should"
-    status = 502
-    remedy = "Check that the charging station has power and is connected to the network."
+    code = "car_gone"
+    title = "The plug is no longer where it was"
+    remedy = (
+        "Look at the robot and the car. If the plug hangs free, confirm that on the page; "
+        "if it is still in, press Unplug."
+    )

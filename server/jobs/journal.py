@@ -8,9 +8,11 @@ from collections.abc import Callable
 from typing import Any
 
 from server.errors import PlugPilotError
+from server.jobs.history import History, history_of
 from server.jobs.model import JobPhase, JobState
-from server.schema.jobs import Job, JobEvent
-from server.schema.problem import problem_from
+from server.jobs.turning_back import TurnBack
+from server.schema.jobs import Job, JobEvent, NeedsPerson
+from server.schema.problem import Problem, problem_from
 from server.storage.jobs import JobStore
 from server.timing import Calendar
 
@@ -72,11 +74,67 @@ class Journal:
             "cancel_requested", "Somebody asked to cancel.", {}, cancel_requested=True
         )
 
-    async def end(self, state: JobState, message: str, error: PlugPilotError | None = None) -> None:
+    async def pause(self, message: str) -> None:
+        """Somebody paused the job, and it has come to rest."""
+        await self._record("paused", message, {}, paused=True)
+
+    async def unpause(self) -> None:
+        """Somebody resumed a paused job."""
+        await self._record("unpaused", "Somebody resumed the job.", {}, paused=False)
+
+    async def ask(self, needs: NeedsPerson) -> None:
+        """A person must decide how the job goes on."""
+        await self._record(
+            "person_needed", needs.sentence, {"code": needs.code}, needs_person=needs
+        )
+
+    async def answered(self, message: str) -> None:
+        """What the job asked about is settled."""
+        await self._record("person_answered", message, {}, needs_person=None)
+
+    async def turn_back(self, turn: TurnBack) -> None:
+        """The job ends early. Returns when that is on disk, so do it before the way back."""
+        await self._record(
+            "turned_back",
+            turn.problem.detail,
+            turn.as_data(),
+            paused=False,
+            needs_person=None,
+        )
+
+    async def resumed(self, phase: JobPhase, message: str, *, after_restart: bool) -> None:
+        """The job goes on after it was interrupted in a phase."""
+        data = {"phase": phase.value, "after_restart": after_restart}
+        await self._record("resumed", message, data, state=JobState.RUNNING)
+
+    async def history(self) -> History:
+        """What the whole journal says, entries of earlier runs of PlugPilot included."""
+        return history_of(await self._store.events(self.job.id))
+
+    async def charged(self, energy_wh: float) -> None:
+        """Keep how much energy has flowed so far; no entry of its own."""
+        result = self.job.result.model_copy(update={"energy_wh": round(energy_wh, 1)})
+        self.job = self.job.model_copy(
+            update={"result": result, "updated_at": self._calendar.now()}
+        )
+        await asyncio.shield(self._store.save(self.job))
+        self._changed(self.job, None)
+
+    async def end(
+        self, state: JobState, message: str, error: PlugPilotError | Problem | None = None
+    ) -> None:
         """The job is over."""
-        problem = problem_from(error) if error else None
+        problem = problem_from(error) if isinstance(error, PlugPilotError) else error
         data = {"code": problem.code, **problem.context} if problem else {}
-        await self._record(state.value, message, data, state=state, error=problem)
+        await self._record(
+            state.value,
+            message,
+            data,
+            state=state,
+            error=problem,
+            paused=False,
+            needs_person=None,
+        )
 
     def give_up(self, error: PlugPilotError) -> None:
         """The job is over, and that cannot be written; the next start writes it."""

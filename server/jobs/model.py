@@ -12,6 +12,18 @@ class JobType(StrEnum):
     PLUG_IN = "plug_in"  # plug in and stay
     UNPLUG = "unplug"  # release, withdraw, park
 
+    @property
+    def in_words(self) -> str:
+        """Name of such a job at the beginning of a sentence."""
+        return _TITLES[self]
+
+
+_TITLES = {
+    JobType.CHARGE: "Charging job",
+    JobType.PLUG_IN: "Plug-in job",
+    JobType.UNPLUG: "Unplugging job",
+}
+
 
 class JobState(StrEnum):
     """Where a job is in its life."""
@@ -40,3 +52,10 @@ class JobPhase(StrEnum):
     RELEASING = "releasing"
     WITHDRAWING = "withdrawing"
     PARKING = "parking"
+
+
+class PersonChoice(StrEnum):
+    """What a person may answer to a job that asks."""
+
+    RESUME = "resume"  # go on by what can be seen then
+    CANCEL = "cancel"  # bring the plug back to its parking place, as far as that is possible

@@ -3,23 +3,11 @@
 from __future__ import annotations
 
 from drivers.station import StationError
-from server.control.errors import (
-    ControlLostError,
-    EmergencyStoppedError,
-    RobotFaultError,
-    RobotOfflineError,
-    RobotStoppedError,
-)
+from server.control.errors import StationUnsafeError
 from server.control.model import PlugState
-from server.errors import InternalError, PlugPilotError
+from server.control.plug_guard import HELD
 from server.jobs.context import JobContext
-from server.jobs.errors import (
-    JobCancelledError,
-    StationUnsafeError,
-    StillLockedError,
-    StillUnderLoadError,
-)
-from server.jobs.model import JobPhase, JobType
+from server.jobs.model import JobType
 from server.jobs.phases import (
     aligning,
     charging,
@@ -31,93 +19,102 @@ from server.jobs.phases import (
     releasing,
     withdrawing,
 )
-from server.schema.jobs import Job
-from server.storage.errors import StorageError
-
-STOPS = (RobotStoppedError, EmergencyStoppedError)
-
-STAY = (
-    *STOPS,
-    RobotFaultError,
-    RobotOfflineError,
-    ControlLostError,
-    StillLockedError,
-    StillUnderLoadError,
-    StorageError,
-    InternalError,
-)
-"""After these the robot stays where it is: a person has stopped it, or must look first."""
-
-WAY_BACK = {JobPhase.RELEASING, JobPhase.WITHDRAWING, JobPhase.PARKING}
-"""What goes wrong here is not tried again: a person must look first."""
-
-
-async def plug_in(job: JobContext) -> None:
-    """From the parking place into the socket. May be cancelled at any moment."""
-    await preflight.run(job)
-    await locating.run(job)
-    await aligning.run(job)
-    await inserting.run(job)
-    await plugged.run(job)
-
-
-async def unplug(job: JobContext) -> None:
-    """From the socket to the parking place. Runs to its end once the plug moves."""
-    await releasing.run(job)
-    await withdrawing.run(job)
-    await parking.run(job)
+from server.jobs.plugging import power_off
+from server.jobs.recovery import OWN_SILENCE
+from server.jobs.turning_back import Return, TurnBack
 
 
 async def carry_out(job: JobContext) -> None:
     """Everything that a job of its type does when nothing goes wrong."""
     match job.journal.job.type:
-        case JobType.PLUG_IN:
-            await plug_in(job)
-        case JobType.CHARGE:
-            await plug_in(job)
-            await charging.run(job)
-            await unplug(job)
+        case JobType.PLUG_IN | JobType.CHARGE:
+            await _plug_in(job)
+            await stay_in(job)
         case JobType.UNPLUG:
             await preflight.make_ready_to_unplug(job)
             await unplug(job)
 
 
-def may_be_cancelled(job: Job) -> bool:
-    """Whether cancelling a running job changes anything: it is not on its way back already.
-
-    Unplugging can be given up until the plug moves.
-    """
-    if job.type is JobType.UNPLUG:
-        return job.phase in {JobPhase.PREFLIGHT, JobPhase.RELEASING}
-    return job.phase not in WAY_BACK
+async def _plug_in(job: JobContext) -> None:
+    """From the parking place into the socket. May be interrupted at any moment."""
+    await preflight.run(job)
+    await locating.run(job)
+    await aligning.run(job)
+    await inserting.run(job)
 
 
-async def retreat(job: JobContext, cause: PlugPilotError) -> None:
+async def stay_in(job: JobContext) -> None:
+    """With the plug seated: what is left of a job that plugs in."""
+    await plugged.run(job)
+    if job.journal.job.type is JobType.CHARGE:
+        await charging.run(job)
+        await unplug(job)
+
+
+async def unplug(job: JobContext) -> None:
+    """From the socket to the parking place. Runs to its end once the plug moves."""
+    await pull_out(job)
+    await parking.run(job)
+
+
+async def pull_out(job: JobContext) -> None:
+    """From the socket to a free plug before it."""
+    await _drives_on(job)
+    await releasing.run(job)
+    await withdrawing.run(job)
+
+
+async def park(job: JobContext) -> None:
+    """From anywhere with a free plug to the parking place."""
+    await _drives_on(job)
+    if not job.supervisor.telemetry.require().homed:
+        await job.journal.note("homing", "Finding the zero of each axis.")
+        await job.supervisor.home(job.lease)
+    await parking.run(job)
+
+
+async def end_hold(job: JobContext) -> None:
+    """In the parking place: give the station back to whoever controls it otherwise."""
+    await power_off.end_hold(job.station)
+
+
+async def go_back(job: JobContext, turn: TurnBack) -> None:
     """Bring plug and robot back to safety after a cancellation or an error.
 
     Raises:
         PlugPilotError: what went wrong on the way back; the robot stays where it is.
     """
-    if isinstance(cause, STOPS):
-        await _power_off(job)
-    if isinstance(cause, STAY):
-        return
-    if job.journal.job.type is JobType.UNPLUG:
-        if isinstance(cause, JobCancelledError):
-            await releasing.end_hold(job.station)
-        return
-    if job.journal.job.phase in WAY_BACK:
-        return
+    match turn.how:
+        case Return.POWER_OFF:
+            await _power_off(job)
+        case Return.END_HOLD if job.supervisor.plug.state in HELD:
+            await power_off.end_hold(job.station)
+        case Return.COME_BACK | Return.END_HOLD:
+            await _come_back(job)
+        case Return.STAY:
+            pass
+
+
+async def _come_back(job: JobContext) -> None:
     plug = job.supervisor.plug.state
-    if plug is PlugState.INSERTED:
+    if job.restarted:
+        await job.supervisor.release_fault(job.lease, *OWN_SILENCE)
+    if plug is PlugState.INSERTED or (plug in HELD and job.restarted):
         await unplug(job)
-    elif plug is PlugState.FREE and job.supervisor.telemetry.require().homed:
-        await parking.run(job)
+    elif plug is PlugState.FREE and (job.supervisor.telemetry.require().homed or job.restarted):
+        await park(job)
+
+
+async def _drives_on(job: JobContext) -> None:
+    """They are off after a restart, and may have been switched off while the car charged."""
+    if not job.supervisor.telemetry.require().enabled:
+        await job.journal.note("enabling", "Switching the drives on.")
+        await job.supervisor.enable(job.lease)
 
 
 async def _power_off(job: JobContext) -> None:
     """Somebody pressed a stop: the car gets no more power either."""
-    if job.supervisor.plug.state is PlugState.INSERTED and job.station.capabilities.switches:
+    if job.supervisor.plug.state in HELD and job.station.capabilities.switches:
         try:
             await job.station.stop()
         except StationError as error:

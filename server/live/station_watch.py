@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
 from collections.abc import Callable
 
-from drivers.station import StationDriver, StationError, StationSnapshot
+from drivers.station import (
+    StationCapabilities,
+    StationDriver,
+    StationError,
+    StationSnapshot,
+)
 
 _log = logging.getLogger(__name__)
+
+
+NEWS_PAUSE_S = 0.1
+"""Whatever a station tells by itself, it is read no more often than this."""
 
 
 class StationWatch:
     """Knows the newest reading and whether the station answers.
 
+    It reads regularly, and at once when the station tells by itself that something has changed.
     Decisions about pulling the plug never rest on this: they take fresh samples themselves.
 
     Args:
         station: The station.
-        period_s: Event loop time between readings.
+        period_s: Longest event loop time between readings.
         changed: Called after every reading.
     """
 
@@ -31,6 +42,13 @@ class StationWatch:
         self._period_s = period_s
         self._changed = changed
         self._task: asyncio.Task[None] | None = None
+        self._news = asyncio.Event()
+        station.listen(self._news.set)
+
+    @property
+    def capabilities(self) -> StationCapabilities:
+        """What the station can do."""
+        return self._station.capabilities
 
     @property
     def name(self) -> str:
@@ -50,7 +68,13 @@ class StationWatch:
 
     async def _run(self) -> None:
         while True:
-            await asyncio.sleep(self._period_s)
+            pause_s = min(NEWS_PAUSE_S, self._period_s)
+            await asyncio.sleep(pause_s)
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(self._period_s - pause_s):
+                    await self._news.wait()
+            # Cleared before the question: what happens from here on is news again.
+            self._news.clear()
             await self._read()
 
     async def _read(self) -> None:

@@ -17,6 +17,7 @@ from server.config.settings import Settings
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.divergence.report import divergence_report
+from server.jobs.model import JobState
 from server.jobs.runner import JobRunner
 from server.live.station_watch import StationWatch
 from server.localisation.eye import Eye
@@ -107,7 +108,7 @@ class Recorder:
         job = self._runner.newest
         if job is None or not self._store.enabled:
             return
-        if not job.state.ended and job.id != self._job_id:
+        if job.state is JobState.RUNNING and job.id != self._job_id:
             self._begin(job)
         elif job.state.ended and self._session is not None:
             # The last entry of the journal is told after this.

@@ -2,13 +2,32 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, AwareDatetime, Field, model_validator
 
-from server.jobs.model import JobPhase, JobState, JobType
+from server.jobs.model import JobPhase, JobState, JobType, PersonChoice
 from server.schema.base import Timestamp, VehicleId, Wire
 from server.schema.problem import Problem
+
+
+def _in_the_calendar(date: datetime) -> datetime:
+    """The same instant in UTC; refuses what only another offset keeps within the calendar."""
+    try:
+        return date.astimezone(UTC)
+    except OverflowError:
+        raise ValueError("this date is out of range") from None
+
+
+ScheduledTime = Annotated[
+    AwareDatetime,
+    AfterValidator(_in_the_calendar),
+    Field(
+        description="With the offset from UTC, so that a change to summer time changes nothing",
+        examples=["2026-10-25T06:30:00+01:00"],
+    ),
+]
 
 
 class JobRequest(Wire):
@@ -21,12 +40,31 @@ class JobRequest(Wire):
     target_energy_wh: Annotated[float, Field(gt=0, le=200_000, allow_inf_nan=False)] | None = Field(
         default=None, description="Charge: stop after this much energy; null: until full"
     )
+    not_before: ScheduledTime | None = Field(
+        default=None, description="Begin then; null: as soon as the robot is free"
+    )
+    unplug_by: ScheduledTime | None = Field(
+        default=None, description="Charge: stop in time to be unplugged then, however full"
+    )
 
     @model_validator(mode="after")
-    def _energy_is_for_charging(self) -> Self:
-        if self.target_energy_wh is not None and self.type is not JobType.CHARGE:
-            raise ValueError("target_energy_wh is for charge jobs only")
+    def _limits_are_for_charging(self) -> Self:
+        if self.type is not JobType.CHARGE:
+            if self.target_energy_wh is not None:
+                raise ValueError("target_energy_wh is for charge jobs only")
+            if self.unplug_by is not None:
+                raise ValueError("unplug_by is for charge jobs only")
         return self
+
+
+class NeedsPerson(Wire):
+    """Why a job does not go on by itself, and what a person may choose."""
+
+    code: str = Field(examples=["robot_fault"])
+    sentence: str = Field(description="In words: what was seen, and what to do first")
+    choices: list[PersonChoice] = Field(
+        description="resume: POST /jobs/{id}/resume; cancel: POST /jobs/{id}/cancel"
+    )
 
 
 class JobResult(Wire):
@@ -82,10 +120,18 @@ class Job(Wire):
     phase: JobPhase
     vehicle_id: VehicleId
     target_energy_wh: float | None
+    not_before: Timestamp | None = None
+    unplug_by: Timestamp | None = None
     created_at: Timestamp
     updated_at: Timestamp
     phase_started_at: Timestamp
     cancel_requested: bool
+    paused: bool = Field(
+        default=False, description="It waits for POST /jobs/{id}/resume; nothing moves or charges"
+    )
+    needs_person: NeedsPerson | None = Field(
+        default=None, description="Running, but it waits until a person has decided"
+    )
     result: JobResult
     error: Problem | None
     recording: RecordingInfo | None = Field(
@@ -115,3 +161,6 @@ class JobEvents(Wire):
     """The journal of one job, oldest first."""
 
     items: list[JobEvent]
+    next_cursor: str | None = Field(
+        default=None, description="Pass as ?cursor= for the next page; null: end"
+    )

@@ -45,6 +45,9 @@ class Vehicle(VehicleSettings):
 
 
 class VehicleList(Wire):
-    """All vehicles, by name."""
+    """Vehicles, by name."""
 
     items: list[Vehicle]
+    next_cursor: str | None = Field(
+        default=None, description="Pass as ?cursor= for the next page; null: end"
+    )

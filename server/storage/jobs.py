@@ -6,10 +6,15 @@ from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from server.jobs.model import JobPhase, JobState, JobType
-from server.schema.jobs import Job, JobEvent, JobResult
+from server.schema.jobs import Job, JobEvent, JobResult, NeedsPerson
 from server.schema.problem import Problem
 from server.storage.database import Database
+from server.storage.spare import is_spare
 from server.storage.tables import JobEventRow, JobRow
+from server.storage.without_disk import may_begin
+
+PHASE_STARTED = "phase_started"
+"""Kind of the event with which a phase begins."""
 
 
 class JobStore:
@@ -19,28 +24,31 @@ class JobStore:
         self._database = database
 
     async def add(self, job: Job, *, key: str | None, digest: str | None) -> None:
-        """Keep a new job together with the request it came from."""
+        """Keep a new job together with the request it came from.
+
+        Raises:
+            StorageError: it cannot be kept; of those that begin without a disk there are few.
+        """
 
         def work(session: Session) -> None:
-            row = JobRow(
-                id=job.id,
-                type=job.type.value,
-                vehicle_id=job.vehicle_id,
-                target_energy_wh=job.target_energy_wh,
-                created_at=job.created_at,
-                idempotency_key=key,
-                request_digest=digest,
-            )
-            _write(row, job)
+            self._refuse_without_disk(session, job, None)
+            row = _new_row(job)
+            row.idempotency_key, row.request_digest = key, digest
             session.add(row)
 
         await self._database.run(work)
 
     async def save(self, job: Job, event: JobEvent | None = None) -> None:
-        """Keep a job's new state, and the event that led to it, in one transaction."""
+        """Keep a job's new state, and the event that led to it, in one transaction.
+
+        Raises:
+            StorageError: it cannot be kept, and the phase must not begin without that.
+        """
 
         def work(session: Session) -> None:
-            row = session.get_one(JobRow, job.id)
+            row = self._row(session, job)
+            if event is not None and event.kind == PHASE_STARTED:
+                self._refuse_without_disk(session, job, JobPhase(row.phase))
             _write(row, job)
             if event is not None:
                 session.add(_event_row(job.id, event))
@@ -77,11 +85,11 @@ class JobStore:
         return await self._database.run(work)
 
     async def unfinished(self) -> list[Job]:
-        """Jobs that had not ended when PlugPilot last stopped."""
+        """Jobs that had not ended when PlugPilot last stopped, oldest first."""
 
         def work(session: Session) -> list[Job]:
             open_states = [state.value for state in JobState if not state.ended]
-            query = select(JobRow).where(JobRow.state.in_(open_states))
+            query = select(JobRow).where(JobRow.state.in_(open_states)).order_by(JobRow.id)
             return [_read(row) for row in session.scalars(query)]
 
         return await self._database.run(work)
@@ -118,6 +126,35 @@ class JobStore:
 
         return await self._database.run(work)
 
+    def _row(self, session: Session, job: Job) -> JobRow:
+        """The row of a known job. Memory that stands in for the disk may have to make it."""
+        if not is_spare(session):
+            return session.get_one(JobRow, job.id)
+        row = session.get(JobRow, job.id)
+        if row is None:
+            row = _new_row(job)
+            session.add(row)
+        return row
+
+    def _refuse_without_disk(self, session: Session, job: Job, before: JobPhase | None) -> None:
+        trouble = self._database.problem
+        if trouble is not None and is_spare(session) and not may_begin(job, before):
+            raise trouble
+
+
+def _new_row(job: Job) -> JobRow:
+    row = JobRow(
+        id=job.id,
+        type=job.type.value,
+        vehicle_id=job.vehicle_id,
+        target_energy_wh=job.target_energy_wh,
+        not_before=job.not_before,
+        unplug_by=job.unplug_by,
+        created_at=job.created_at,
+    )
+    _write(row, job)
+    return row
+
 
 def _write(row: JobRow, job: Job) -> None:
     row.state = job.state.value
@@ -125,6 +162,8 @@ def _write(row: JobRow, job: Job) -> None:
     row.updated_at = job.updated_at
     row.phase_started_at = job.phase_started_at
     row.cancel_requested = job.cancel_requested
+    row.paused = job.paused
+    row.needs_person = job.needs_person.model_dump(mode="json") if job.needs_person else None
     row.result = job.result.model_dump(mode="json")
     row.error = job.error.model_dump(mode="json") if job.error else None
 
@@ -137,10 +176,14 @@ def _read(row: JobRow) -> Job:
         phase=JobPhase(row.phase),
         vehicle_id=row.vehicle_id,
         target_energy_wh=row.target_energy_wh,
+        not_before=row.not_before,
+        unplug_by=row.unplug_by,
         created_at=row.created_at,
         updated_at=row.updated_at,
         phase_started_at=row.phase_started_at,
         cancel_requested=row.cancel_requested,
+        paused=row.paused,
+        needs_person=NeedsPerson.model_validate(row.needs_person) if row.needs_person else None,
         result=JobResult.model_validate(row.result),
         error=Problem.model_validate(row.error) if row.error else None,
     )

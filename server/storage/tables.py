@@ -15,6 +15,7 @@ from sqlalchemy import (
     String,
     TypeDecorator,
     UniqueConstraint,
+    false,
 )
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column, relationship
 
@@ -73,10 +74,14 @@ class JobRow(Base):
     # No foreign key: the history of a vehicle outlives the vehicle.
     vehicle_id: Mapped[str] = mapped_column(String(64))
     target_energy_wh: Mapped[float | None] = mapped_column(Float)
+    not_before: Mapped[datetime | None]
+    unplug_by: Mapped[datetime | None]
     created_at: Mapped[datetime]
     updated_at: Mapped[datetime]
     phase_started_at: Mapped[datetime]
     cancel_requested: Mapped[bool] = mapped_column(default=False)
+    paused: Mapped[bool] = mapped_column(default=False, server_default=false())
+    needs_person: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     result: Mapped[dict[str, Any]]
     error: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
     idempotency_key: Mapped[str | None] = mapped_column(String(255))
@@ -109,3 +114,5 @@ class PlugRow(Base):
     id: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
     state: Mapped[str] = mapped_column(String(16))
     corridor: Mapped[dict[str, Any] | None] = mapped_column(JSON(none_as_null=True))
+    # Grows with every change: tells which is newer, this row or the file beside the database.
+    revision: Mapped[int] = mapped_column(default=0, server_default="0")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
@@ -22,6 +24,8 @@ class VehicleStore:
     def __init__(self, database: Database, key: LabelKey) -> None:
         self._database = database
         self._key = key
+        self.changing = asyncio.Lock()
+        """For whoever looks at a vehicle before changing it."""
 
     async def all(self) -> list[Vehicle]:
         """All vehicles, by name."""

@@ -14,7 +14,11 @@ from drivers.arduino.protocol.messages import (
     HEARTBEAT_TIMEOUT_MS,
     TICK_HZ,
 )
+from drivers.camera import pi_camera_v2
 from drivers.robot import BoardState, StopCategory
+from drivers.simulator.garage import build_garage
+from drivers.simulator.parameters import SimulationParameters
+from server.config.supervision import SupervisionSettings
 from server.control.jog import Jog
 from server.control.supervisor import Supervisor
 from server.timing import Calendar
@@ -24,6 +28,7 @@ from tests.rig.stepping import braking_begins_s, speed_steps_s, steps_after
 from tests.rig.truth import Step
 from tests.support.eventually import eventually
 from tests.support.robot_cell import MemoryPlug
+from twin.camera_mount import CameraMount
 from twin.joints import JointPosition
 from twin.motion import MotionLimits
 
@@ -140,7 +145,19 @@ async def test_segments_are_as_fast_as_they_say(
 async def test_a_jog_stops_when_its_button_is_let_go(homed: tuple[Rig, ArduinoRobot]) -> None:
     rig, robot = homed
     await ready(rig, robot, LEFT)
-    supervisor = Supervisor(robot, rig.machine.geometry, LIMITS, MemoryPlug(), Calendar())
+    geometry = rig.machine.geometry
+    garage = build_garage(
+        geometry, LIMITS, CameraMount(), pi_camera_v2(), SimulationParameters(), seed=1
+    )
+    supervisor = Supervisor(
+        robot,
+        geometry,
+        LIMITS,
+        MemoryPlug(),
+        Calendar(),
+        station=garage.station,
+        settings=SupervisionSettings(),
+    )
     jog = Jog(supervisor)
     await supervisor.start()
     await rig.control.record_steps()

@@ -11,6 +11,7 @@ from drivers.camera import pi_camera_v2
 from drivers.robot import RobotState
 from drivers.simulator.garage import SimulatedGarage, build_garage
 from drivers.simulator.parameters import SimulationParameters
+from server.config.supervision import SupervisionSettings
 from server.control.jog import Jog
 from server.control.model import Holder, PlugState, RobotMode
 from server.control.plug_guard import PlugRecord
@@ -107,13 +108,23 @@ async def robot_cell(
     store: MemoryPlug | None = None,
     enabled: bool = True,
     seed: int = 1,
+    settings: SupervisionSettings | None = None,
 ) -> AsyncIterator[RobotCell]:
     """A running supervisor."""
     garage = build_garage(
         GEOMETRY, LIMITS, CameraMount(), pi_camera_v2(), numbers or parameters(), seed=seed
     )
     store = store or MemoryPlug()
-    supervisor = Supervisor(garage.robot, GEOMETRY, LIMITS, store, Calendar())
+    await garage.station.open()
+    supervisor = Supervisor(
+        garage.robot,
+        GEOMETRY,
+        LIMITS,
+        store,
+        Calendar(),
+        station=garage.station,
+        settings=settings or SupervisionSettings(),
+    )
     cell = RobotCell(garage, supervisor, Jog(supervisor), store)
 
     def keep() -> None:
@@ -139,11 +150,14 @@ def in_cell(
     store: MemoryPlug | None = None,
     enabled: bool = True,
     seed: int = 1,
+    settings: SupervisionSettings | None = None,
 ) -> T:
     """Run a scenario in virtual time."""
 
     async def main() -> T:
-        async with robot_cell(numbers, store=store, enabled=enabled, seed=seed) as cell:
+        async with robot_cell(
+            numbers, store=store, enabled=enabled, seed=seed, settings=settings
+        ) as cell:
             return await scenario(cell)
 
     return run_virtual(main())

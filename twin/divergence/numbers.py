@@ -93,10 +93,10 @@ class TimeNumbers(Numbers):
         default_factory=lambda: {
             "locating": PhaseTime(typical_s=1.0, sigma_s=1.0),
             "aligning": PhaseTime(typical_s=0.8, sigma_s=0.5),
-            "inserting": PhaseTime(typical_s=0.15, sigma_s=0.15),
+            "inserting": PhaseTime(typical_s=0.5, sigma_s=0.3),
             "plugged": PhaseTime(typical_s=0.2, sigma_s=0.7),
             "releasing": PhaseTime(typical_s=2.0, sigma_s=2.0),
-            "withdrawing": PhaseTime(typical_s=0.3, sigma_s=0.2),
+            "withdrawing": PhaseTime(typical_s=0.4, sigma_s=0.25),
             "parking": PhaseTime(typical_s=0.15, sigma_s=0.15),
         },
         description="On top of the time that the planned motions take",

@@ -40,7 +40,9 @@ class EvccStation(WebStation):
     @property
     def capabilities(self) -> StationCapabilities:
         """It knows nothing of now."""
-        return StationCapabilities(switches=True, holds=True, unlocks=False, fresh=False)
+        return StationCapabilities(
+            switches=True, holds=True, unlocks=False, fresh=False, **self._web.bounds(1, 3)
+        )
 
     async def _look(self) -> None:
         await self._load_point()

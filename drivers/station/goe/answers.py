@@ -68,6 +68,7 @@ class Status(Answer):
 
 
 class Setting(Answer):
-    """GET /api/set?frc=...: true, or what is wrong."""
+    """GET /api/set?frc=... or amp=...: true, or what is wrong."""
 
-    frc: bool | str
+    frc: bool | str | None = None
+    amp: bool | str | None = None

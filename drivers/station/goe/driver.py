@@ -6,6 +6,8 @@ outranks nobody, and is a hold only behind an energy manager that is off.
 
 from __future__ import annotations
 
+import math
+
 from drivers.station.errors import (
     StationHeldError,
     StationRefusedError,
@@ -50,7 +52,9 @@ class GoeStation(WebStation):
     @property
     def capabilities(self) -> StationCapabilities:
         """It opens its own socket by itself; the inlet of the car is the car's."""
-        return StationCapabilities(switches=True, holds=False, unlocks=False)
+        return StationCapabilities(
+            switches=True, holds=False, unlocks=False, limits_current=True, **self._web.bounds(1, 2)
+        )
 
     async def _look(self) -> None:
         await self._web.read(Status, QUERY)
@@ -110,10 +114,17 @@ class GoeStation(WebStation):
         """
         raise StationUnsupportedError(f"{self.name} cannot unlock the car: open it from the car.")
 
+    async def limit_current(self, current_a: float) -> None:
+        """It takes whole amperes."""
+        setting, _ = await self._web.read(Setting, f"/api/set?amp={math.floor(current_a)}")
+        self._require(setting.amp)
+
     async def _force(self, state: int) -> None:
         setting, _ = await self._web.read(Setting, f"/api/set?frc={state}")
-        if setting.frc is not True:
+        self._require(setting.frc)
+
+    def _require(self, said: bool | str | None) -> None:
+        if said is not True:
             raise StationRefusedError(
-                f"{self.name} refused to be switched ({setting.frc}). "
-                "Allow the local API v2 in its app."
+                f"{self.name} refused the setting ({said}). Allow the local API v2 in its app."
             )

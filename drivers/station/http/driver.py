@@ -52,7 +52,10 @@ class HttpStation(WebStation):
         """What there are commands for."""
         settings = self._settings
         return StationCapabilities(
-            switches=settings.stop is not None, holds=False, unlocks=settings.unlock is not None
+            switches=settings.stop is not None,
+            holds=False,
+            unlocks=settings.unlock is not None,
+            **self._web.bounds(1, 1),
         )
 
     async def _look(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+from collections.abc import Callable
 from typing import Any
 
 from ocpp.exceptions import OCPPError
@@ -26,12 +27,14 @@ from drivers.station.memory import StationMemory
 from drivers.station.ocpp16.clock import StationClock
 from drivers.station.ocpp16.listening import PROTOCOL, listen
 from drivers.station.ocpp16.point import ConnectedPoint
+from drivers.station.ocpp16.profile import current_profile
 from drivers.station.protocol import PilotState, StationCapabilities, StationSnapshot
 from drivers.station.settings import OcppSettings
 
 _log = logging.getLogger(__name__)
 
 CHARGING = "Charging"
+MARGIN_S = 0.5
 ENABLED = {CHARGING, "SuspendedEV", "SuspendedEVSE"}
 CONFIGURATION = {
     "MeterValuesSampledData": "Energy.Active.Import.Register,Power.Active.Import,Current.Import",
@@ -55,6 +58,7 @@ class OcppStation:
         self._clock: StationClock | None = None
         self._point: ConnectedPoint | None = None
         self._untriggered: set[str] = set()
+        self._listeners: list[Callable[[], None]] = []
         self.connected = asyncio.Event()
 
     @property
@@ -65,7 +69,15 @@ class OcppStation:
     @property
     def capabilities(self) -> StationCapabilities:
         """Whether it unlocks is for the configuration to say: few stations with a cable do."""
-        return StationCapabilities(switches=True, holds=True, unlocks=self._settings.unlocks)
+        timeout_s = self._settings.timeout_s
+        return StationCapabilities(
+            switches=True,
+            holds=True,
+            unlocks=self._settings.unlocks,
+            limits_current=True,
+            reads_within_s=4 * timeout_s + MARGIN_S,  # two triggers, two messages
+            acts_within_s=3 * timeout_s + MARGIN_S,
+        )
 
     @property
     def port(self) -> int:
@@ -181,7 +193,33 @@ class OcppStation:
             )
         self._check("UnlockConnector", said, {"Unlocked"})
 
+    async def limit_current(self, current_a: float) -> None:
+        """Set the profile of all transactions to come, and of the running one.
+
+        Raises:
+            StationUnsupportedError: it has no smart charging.
+        """
+        said = await self._call(
+            call.SetChargingProfile(
+                connector_id=self._settings.connector,
+                cs_charging_profiles=current_profile(current_a),
+            )
+        )
+        if said == "NotSupported":
+            raise StationUnsupportedError(
+                f"{self.name} has no smart charging: set its current at the station."
+            )
+        self._check("SetChargingProfile", said, {"Accepted"})
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call ``listener`` with every new status that it sends."""
+        self._listeners.append(listener)
+
     # --- inside ------------------------------------------------------------------------------
+
+    def _news(self) -> None:
+        for listener in self._listeners:
+            listener()
 
     async def _talk(self, connection: ServerConnection) -> None:
         if connection.subprotocol != PROTOCOL or self._clock is None:
@@ -195,6 +233,7 @@ class OcppStation:
             clock=self._clock,
             memory=self._memory,
             timeout_s=self._settings.timeout_s,
+            changed=self._news,
         )
         # The newest connection counts: after a broken one the old may seem alive for a while.
         self._point = point

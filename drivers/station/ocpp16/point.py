@@ -56,6 +56,7 @@ class ConnectedPoint(ChargePoint):  # type: ignore[misc]  # the library has no t
         clock: Of the station.
         memory: Keeps the transaction.
         timeout_s: Longest wait for an answer [s].
+        changed: Called when the station tells another status.
 
     Attributes:
         status: Newest status of the connector.
@@ -75,6 +76,7 @@ class ConnectedPoint(ChargePoint):  # type: ignore[misc]  # the library has no t
         clock: StationClock,
         memory: StationMemory,
         timeout_s: float,
+        changed: Callable[[], None] = lambda: None,
     ) -> None:
         super().__init__(identity, connection, timeout_s, _wire_log)
         self._connector = connector
@@ -82,6 +84,7 @@ class ConnectedPoint(ChargePoint):  # type: ignore[misc]  # the library has no t
         self._memory = memory
         self._memory_name = f"ocpp {identity} transaction"
         self.news = asyncio.Condition()
+        self._changed = changed
         self.late_s = 0.0
         self.status: str | None = None
         self.status_s: float | None = None
@@ -136,11 +139,14 @@ class ConnectedPoint(ChargePoint):  # type: ignore[misc]  # the library has no t
         sampled_s = self._sampled_s(timestamp)
         newest = self.status_s is None or sampled_s >= self.status_s
         if connector_id == self._connector and newest:
+            is_news = status != self.status
             async with self.news:
                 self.status, self.status_s = status, sampled_s
                 if status != "Unavailable":
                     self.plugged = status not in {"Available", "Reserved", "Faulted"}
                 self.news.notify_all()
+            if is_news:
+                self._changed()
         return call_result.StatusNotification()
 
     @_answers("MeterValues")

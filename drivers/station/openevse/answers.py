@@ -91,6 +91,7 @@ class Override(Answer):
     """GET /override; empty without one."""
 
     state: Literal["active", "disabled"] | None = None
+    auto_release: bool = True
 
 
 class Limit(Answer):
@@ -106,6 +107,7 @@ class Pushed(Answer):
 
     state: int | None = None
     amp: float | None = None
+    vehicle: int | None = None
 
     @property
     def shows_load(self) -> bool:

@@ -8,6 +8,8 @@ It only bites once the session has had that energy; below, the first Wh after a 
 from __future__ import annotations
 
 import logging
+import math
+from collections.abc import Callable
 
 import httpx
 from pydantic import JsonValue
@@ -54,11 +56,14 @@ class OpenevseStation(WebStation):
         self._memory = memory
         self._limit_name = f"openevse {settings.url} limit"
         self._clock = ClockWatch(self.name, SAME_MOMENT_S)
+        self._current_a: int | None = None
 
     @property
     def capabilities(self) -> StationCapabilities:
         """The latch is the car's business, not the station's."""
-        return StationCapabilities(switches=True, holds=True, unlocks=False)
+        return StationCapabilities(
+            switches=True, holds=True, unlocks=False, limits_current=True, **self._web.bounds(2, 6)
+        )
 
     async def open(self) -> None:
         """Connect; see WebStation."""
@@ -156,6 +161,16 @@ class OpenevseStation(WebStation):
         """
         raise StationUnsupportedError(f"{self.name} has no lock: open it from the car.")
 
+    async def limit_current(self, current_a: float) -> None:
+        """It takes whole amperes, as part of the override that is there."""
+        self._current_a = math.floor(current_a)
+        override, _ = await self._web.read(Override, "/override")
+        await self._override(override.state, auto_release=override.auto_release)
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call ``listener`` with every push that shows something else than the one before."""
+        self.push.listen(listener)
+
     async def _end_limit(self) -> None:
         foreign = await self._memory.get(self._limit_name)
         if foreign is None:
@@ -165,8 +180,13 @@ class OpenevseStation(WebStation):
         await self._web.call("POST", "/limit", json=theirs.model_dump())
         await self._memory.put(self._limit_name, None)
 
-    async def _override(self, state: str, *, auto_release: bool) -> None:
-        wanted: dict[str, JsonValue] = {"state": state, "auto_release": auto_release}
+    async def _override(self, state: str | None, *, auto_release: bool) -> None:
+        """Write the one override that there is, so with everything that it should hold."""
+        wanted: dict[str, JsonValue] = {"auto_release": auto_release}
+        if state is not None:
+            wanted["state"] = state
+        if self._current_a is not None:
+            wanted["charge_current"] = self._current_a
         await self._web.call("POST", "/override", json=wanted)
 
 

@@ -9,6 +9,7 @@ import asyncio
 import base64
 import logging
 import math
+from collections.abc import Callable
 
 import websockets.asyncio.client
 from pydantic import ValidationError
@@ -34,6 +35,12 @@ class LoadWatch:
         self._task: asyncio.Task[None] | None = None
         self.connected = asyncio.Event()
         self.load_seen_s = -math.inf
+        self._newest: Pushed | None = None
+        self._listeners: list[Callable[[], None]] = []
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call ``listener`` whenever state, current or car change."""
+        self._listeners.append(listener)
 
     def start(self) -> None:
         """Listen, and connect again whenever the connection breaks."""
@@ -86,3 +93,8 @@ class LoadWatch:
             return
         if pushed.shows_load:
             self.load_seen_s = asyncio.get_running_loop().time()
+        # It repeats its time and its temperatures every second: they are no news.
+        if pushed not in (Pushed(), self._newest):
+            self._newest = pushed
+            for listener in self._listeners:
+                listener()

@@ -82,7 +82,13 @@ class ShellyStation(WebStation):
     def capabilities(self) -> StationCapabilities:
         """It switches, and sees the car if somebody wired that."""
         senses = self._settings.car_input is not None
-        return StationCapabilities(switches=True, holds=False, unlocks=False, senses_car=senses)
+        return StationCapabilities(
+            switches=True,
+            holds=False,
+            unlocks=False,
+            senses_car=senses,
+            **self._web.bounds(2, 1),
+        )
 
     async def _look(self) -> None:
         await self._read_switch()

@@ -25,6 +25,7 @@ _STREAM = {"content": {"multipart/x-mixed-replace": {}}, "description": "Picture
 @router.get(
     "/snapshot.jpg",
     operation_id="getCameraSnapshot",
+    summary="Take a picture",
     response_class=Response,
     responses={200: _JPEG, **problem_responses(503)},
 )
@@ -40,6 +41,7 @@ async def snapshot(services: ServicesDep) -> Response:
 @router.get(
     "/stream.mjpg",
     operation_id="streamCamera",
+    summary="Follow the camera",
     response_class=StreamingResponse,
     responses={200: _STREAM, **problem_responses(503)},
 )

@@ -15,7 +15,7 @@ router = APIRouter(tags=["service"])
 _OK = ComponentHealth(status="ok", detail="Works.")
 
 
-@router.get("/health", operation_id="getHealth")
+@router.get("/health", operation_id="getHealth", summary="Read the health of every part")
 async def health(services: ServicesDep) -> Health:
     """Health of every part. Answers 200 as long as the service itself runs."""
     components = {

@@ -32,6 +32,7 @@ _FILE: dict[int | str, dict[str, Any]] = {
 @router.get(
     "/{job_id}/recording",
     operation_id="getJobRecording",
+    summary="Download a recording",
     response_class=FileResponse,
     responses={**_FILE, **problem_responses(404, 409)},
 )
@@ -45,6 +46,7 @@ async def get_recording(job_id: JobId, services: ServicesDep) -> FileResponse:
 @router.get(
     "/{job_id}/playback",
     operation_id="getJobPlayback",
+    summary="Make a playback ready",
     responses=problem_responses(404, 409, 500),
 )
 async def get_playback(job_id: JobId, services: ServicesDep) -> Playback:
@@ -60,6 +62,7 @@ async def get_playback(job_id: JobId, services: ServicesDep) -> Playback:
 @router.get(
     "/{job_id}/playback.viser",
     operation_id="getJobPlaybackFile",
+    summary="Download a playback",
     response_class=FileResponse,
     responses={**_FILE, **problem_responses(404, 409, 500)},
 )

@@ -23,13 +23,15 @@ def _now(services: Services) -> Robot:
     return robot_view(services.supervisor, services.runner.socket, services.calendar)
 
 
-@router.get("", operation_id="getRobot")
+@router.get("", operation_id="getRobot", summary="Read the robot")
 async def get_robot(services: ServicesDep) -> Robot:
     """The robot now."""
     return _now(services)
 
 
-@router.get("/reach", operation_id="getRobotReach", responses=_REFUSALS)
+@router.get(
+    "/reach", operation_id="getRobotReach", summary="Read the ways left", responses=_REFUSALS
+)
 async def get_reach(services: ServicesDep) -> Reach:
     """How far each axis can still go from here."""
     # Some milliseconds of kinematics, which the control loop shall not wait for.
@@ -37,28 +39,32 @@ async def get_reach(services: ServicesDep) -> Reach:
     return Reach(**{axis: WayLeft(back_mm=back, on_mm=on) for axis, (back, on) in ways.items()})
 
 
-@router.post("/stop", operation_id="stopRobot")
+@router.post("/stop", operation_id="stopRobot", summary="Stop")
 async def stop(services: ServicesDep) -> Robot:
     """Protective stop (category 2 of IEC 60204-1), in force until reset. Never refused."""
     await services.supervisor.stop()
     return _now(services)
 
 
-@router.post("/estop", operation_id="emergencyStopRobot")
+@router.post("/estop", operation_id="emergencyStopRobot", summary="Emergency stop")
 async def emergency_stop(services: ServicesDep) -> Robot:
     """Emergency stop (category 1), latched until reset. Never refused."""
     await services.supervisor.emergency_stop()
     return _now(services)
 
 
-@router.post("/reset", operation_id="resetRobot", responses=_REFUSALS)
+@router.post(
+    "/reset", operation_id="resetRobot", summary="Release stops and faults", responses=_REFUSALS
+)
 async def reset(services: ServicesDep) -> Robot:
     """Release stop, emergency stop and fault. Nothing moves by itself afterwards."""
     await services.supervisor.reset()
     return _now(services)
 
 
-@router.post("/enable", operation_id="enableRobot", responses=_REFUSALS)
+@router.post(
+    "/enable", operation_id="enableRobot", summary="Switch the drives on", responses=_REFUSALS
+)
 async def enable(services: ServicesDep) -> Robot:
     """Switch the drives on."""
     async with services.supervisor.control("jog", "A technician") as lease:
@@ -66,7 +72,9 @@ async def enable(services: ServicesDep) -> Robot:
     return _now(services)
 
 
-@router.post("/disable", operation_id="disableRobot", responses=_REFUSALS)
+@router.post(
+    "/disable", operation_id="disableRobot", summary="Switch the drives off", responses=_REFUSALS
+)
 async def disable(services: ServicesDep) -> Robot:
     """Switch the drives off."""
     async with services.supervisor.control("jog", "A technician") as lease:
@@ -74,7 +82,9 @@ async def disable(services: ServicesDep) -> Robot:
     return _now(services)
 
 
-@router.post("/home", operation_id="homeRobot", responses=_REFUSALS)
+@router.post(
+    "/home", operation_id="homeRobot", summary="Find the zero of each axis", responses=_REFUSALS
+)
 async def home(services: ServicesDep) -> Robot:
     """Find the zero of each axis; answers when it is done."""
     async with services.supervisor.control("homing", "Homing") as lease:
@@ -82,7 +92,12 @@ async def home(services: ServicesDep) -> Robot:
     return _now(services)
 
 
-@router.post("/jog", operation_id="jogRobot", responses=problem_responses(409, 422, 503))
+@router.post(
+    "/jog",
+    operation_id="jogRobot",
+    summary="Move one step",
+    responses=problem_responses(409, 422, 503),
+)
 async def jog(step: JogStep, services: ServicesDep) -> Robot:
     """One step of one axis; answers when it is done. Held motion goes over the WebSocket."""
     await services.jog.step(step.axis, step.distance_mm, step.speed_mm_s)
@@ -90,7 +105,10 @@ async def jog(step: JogStep, services: ServicesDep) -> Robot:
 
 
 @router.post(
-    "/plug-confirmation", operation_id="confirmPlug", responses=problem_responses(409, 422)
+    "/plug-confirmation",
+    operation_id="confirmPlug",
+    summary="Confirm that the plug is out",
+    responses=problem_responses(409, 422),
 )
 async def confirm_plug(confirmation: PlugConfirmation, services: ServicesDep) -> Robot:
     """A person has looked and says that the plug is out of the car."""

@@ -11,7 +11,7 @@ from server.schema.station import Station
 router = APIRouter(prefix="/station", tags=["station"])
 
 
-@router.get("", operation_id="getStation")
+@router.get("", operation_id="getStation", summary="Read the charging station")
 async def get_station(services: ServicesDep) -> Station:
     """Newest reading of the charging station."""
     watch = services.station

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from server.jobs.approach import pre_insertion
 from server.jobs.context import JobContext
-from server.jobs.errors import SocketTooSkewedError
 from server.jobs.model import JobPhase
+from server.jobs.plugging.tilt import refuse_skewed
 from server.labels.recognise import why_not_the_label
 from server.localisation.errors import LabelNotFoundError
 from server.localisation.eye import Refusal
@@ -47,19 +47,6 @@ async def run(job: JobContext) -> None:
         lateral_sigma_mm=round(socket.lateral_sigma_mm, 4),
         tilt_deg=round(math.degrees(socket.tilt_rad(job.supervisor.geometry)), 2),
     )
-
-
-def refuse_skewed(job: JobContext, socket: SocketPose) -> None:
-    """Raise SocketTooSkewedError when the plug holder cannot follow the socket's tilt."""
-    tilt_deg = math.degrees(socket.tilt_rad(job.supervisor.geometry))
-    limit_deg = job.settings.insertion.max_tilt_deg
-    if tilt_deg > limit_deg:
-        raise SocketTooSkewedError(
-            f"The socket is tilted by {tilt_deg:.1f} degrees; "
-            f"the plug can follow {limit_deg:.1f} degrees.",
-            tilt_deg=round(tilt_deg, 2),
-            limit_deg=limit_deg,
-        )
 
 
 async def _search(job: JobContext) -> SocketPose:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from server.jobs.approach import parking_joints
 from server.jobs.context import JobContext
 from server.jobs.model import JobPhase
-from server.jobs.phases.releasing import end_hold
+from server.jobs.plugging.power_off import end_hold
 
 
 async def run(job: JobContext) -> None:

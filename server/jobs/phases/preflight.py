@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from drivers.station import PilotState, StationError, StationSnapshot
+from server.control.errors import StationUnsafeError
 from server.control.model import PlugState
 from server.jobs.context import JobContext
-from server.jobs.errors import StationUnsafeError
 from server.jobs.model import JobPhase
 from server.jobs.phases import parking
-from server.jobs.phases.releasing import end_hold
 
 
 async def run(job: JobContext) -> None:
@@ -45,17 +44,23 @@ async def _home(job: JobContext) -> None:
 
 
 async def _check_station(job: JobContext) -> None:
+    """Look only: whoever charges at this station meanwhile is not disturbed."""
+    capabilities = job.station.capabilities
+    if not capabilities.fresh:
+        raise StationUnsafeError(
+            "The readings of this charging station are too old: nobody could tell later whether "
+            "the plug may be pulled. Configure the station itself as station.driver and its "
+            "energy manager as station.manager."
+        )
+    if not capabilities.senses_car:
+        raise StationUnsafeError(
+            "This charging station does not sense whether a car is connected. Wire a contact that "
+            "does, and name it in the settings of the station."
+        )
     try:
-        if job.station.capabilities.switches:
-            # No power while the plug goes in; charging begins when it is seated.
-            await job.station.stop()
-        snapshot = await job.station.snapshot()
+        _refuse_unsafe(await job.station.snapshot())
     except StationError as error:
         raise StationUnsafeError(str(error)) from error
-    if snapshot.held:
-        # An earlier job had to leave it behind; it would keep this car from charging.
-        await end_hold(job.station)
-    _refuse_unsafe(snapshot)
 
 
 def _refuse_unsafe(snapshot: StationSnapshot) -> None:

@@ -6,7 +6,13 @@ from hypothesis import strategies as st
 
 from drivers.simulator.charging import PowerRamp
 
-ramps = st.builds(PowerRamp, st.floats(0, 1e5), st.floats(100, 22_000), st.floats(0.1, 10))
+ramps = st.builds(
+    PowerRamp,
+    st.floats(0, 1e5),
+    st.floats(100, 22_000),
+    st.floats(0.1, 10),
+    st.floats(0, 22_000),
+)
 
 
 def test_energy_of_a_ramp_and_an_hour() -> None:

@@ -15,8 +15,8 @@ from drivers.station import (
 from drivers.station.evcc import EvccStation
 from drivers.station.managed import ManagedStation
 from drivers.station.openevse import OpenevseStation
-from server.jobs.errors import JobError, StationUnsafeError, StillUnderLoadError
-from server.jobs.phases.releasing import why_not_safe
+from server.control.errors import ControlError, StationUnsafeError, StillUnderLoadError
+from server.control.load_rule import why_not_safe
 from tests.support.fake_stations.evcc import FakeEvcc
 from tests.support.fake_stations.openevse import FakeOpenevse
 
@@ -151,9 +151,9 @@ async def test_start_waits_for_the_release_and_leaves_the_decision_to_the_manage
 async def test_a_job_believes_the_station_and_never_evcc_alone(
     managed: ManagedStation, evcc: EvccStation, openevse: OpenevseStation
 ) -> None:
-    def against(station: StationDriver, snapshot: StationSnapshot) -> type[JobError] | None:
+    def against(station: StationDriver, snapshot: StationSnapshot) -> type[ControlError] | None:
         # judged at the time of the reading of the station, however busy this machine is
-        problem = why_not_safe(snapshot, station.capabilities, asked_s)
+        problem = why_not_safe(snapshot, station.capabilities, asked_s, age_limit_s=1.0)
         return None if problem is None else type(problem)
 
     asked_s = asyncio.get_running_loop().time()

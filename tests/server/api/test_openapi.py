@@ -8,15 +8,18 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import jsonschema_rs
 import pytest
 
+from server.api.examples import MODELS
 from server.api.openapi import document
 from server.api.problems import MEDIA_TYPE
 from server.schema.live import ClientMessage
 
 PUBLISHED = Path(__file__).resolve().parents[3] / "web" / "openapi.json"
 METHODS = {"get", "put", "post", "delete", "patch"}
-PROBLEM = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+PROBLEM = {"$ref": "#/components/schemas/Problem"}
+STREAMS = {"image/jpeg", "multipart/x-mixed-replace", "application/octet-stream"}
 
 
 @pytest.fixture(scope="module")
@@ -63,6 +66,66 @@ def test_every_reference_leads_somewhere(contract: dict[str, Any]) -> None:
             place = place[step]
 
 
+def _contents(contract: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Everything that is JSON, in and out, of every operation and webhook."""
+    for where, operation in _operations(contract):
+        answers = [r for r in operation["responses"].values() if "$ref" not in r]
+        for part in [*answers, *([operation["requestBody"]] if "requestBody" in operation else [])]:
+            for media_type, content in part.get("content", {}).items():
+                if media_type not in STREAMS and media_type != "text/event-stream":
+                    assert media_type == "application/json", where
+                    yield where, content
+    for name, response in contract["components"]["responses"].items():
+        for content in response["content"].values():
+            yield name, content
+    event = contract["webhooks"]["event"]["post"]
+    yield "webhook", event["requestBody"]["content"]["application/json"]
+
+
+def test_every_request_and_answer_has_an_example_that_is_right(contract: dict[str, Any]) -> None:
+    count = 0
+    for where, content in _contents(contract):
+        examples = [named["value"] for named in content.get("examples", {}).values()]
+        if "example" in content:
+            examples.append(content["example"])
+        assert examples, f"{where} has no example"
+        document = {**content["schema"], "components": contract["components"]}
+        validator = jsonschema_rs.validator_for(document, validate_formats=True)
+        for example in examples:
+            count += 1
+            for error in validator.iter_errors(example):
+                pytest.fail(f"{where}: {error.message} at {error.instance_path}")
+    assert count > 60
+
+
+def test_a_wrong_example_would_be_found(contract: dict[str, Any]) -> None:
+    """The check above sees through references, formats and forbidden fields."""
+    schema = {"$ref": "#/components/schemas/Webhook", "components": contract["components"]}
+    validator = jsonschema_rs.validator_for(schema, validate_formats=True)
+    good = MODELS["Webhook"]
+    assert validator.is_valid(good)
+    for wrong in ({"created_at": "yesterday"}, {"events": ["job.exploded"]}, {"extra": 1}):
+        assert not validator.is_valid({**good, **wrong}), wrong
+
+
+def test_every_list_comes_in_pages(contract: dict[str, Any]) -> None:
+    lists = 0
+    for where, operation in _operations(contract):
+        for response in operation["responses"].values():
+            schema = response.get("content", {}).get("application/json", {}).get("schema", {})
+            model = contract["components"]["schemas"].get(_name(schema.get("$ref", "")), {})
+            if "items" in model.get("properties", {}):
+                lists += 1
+                assert "next_cursor" in model["properties"], where
+                names = {parameter["name"] for parameter in operation["parameters"]}
+                assert {"cursor", "limit"} <= names, where
+    assert lists >= 6
+
+
+def _name(reference: str) -> str:
+    return reference.rpartition("/")[2]
+
+
 def test_every_schema_is_used_or_a_message(contract: dict[str, Any]) -> None:
     used = {reference.rsplit("/", 1)[1] for reference in _references(contract)}
     assert set(contract["components"]["schemas"]) - used == {"ServerMessage", "ClientMessage"}
@@ -75,12 +138,15 @@ def test_every_operation_is_named_and_documents_what_can_go_wrong(
     for where, operation in _operations(contract):
         names.append(operation["operationId"])
         assert re.fullmatch(r"[a-z]+[A-Z][A-Za-z]+", operation["operationId"]), where
+        assert operation["summary"].strip(), where
         assert operation["description"].strip(), where
         assert any(code.startswith("2") for code in operation["responses"]), where
         assert "default" in operation["responses"], where
         for code, response in operation["responses"].items():
             if not code.startswith("2"):
-                assert response["content"] == PROBLEM, f"{where} {code}"
+                shared = contract["components"]["responses"][_name(response["$ref"])]
+                assert shared["content"][MEDIA_TYPE]["schema"] == PROBLEM, f"{where} {code}"
+                assert list(shared["content"]) == [MEDIA_TYPE]
     assert len(set(names)) == len(names)
     assert "createJob" in names
 

@@ -84,3 +84,21 @@ def test_a_table_in_a_variable_must_be_json(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setenv("PLUGPILOT_SERVER", "port 8000")
     with pytest.raises(InvalidSettingsError, match="PLUGPILOT_SERVER"):
         load_settings()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[station.openevse]\nurl = "http://10.0.0.1"\npassword = 20241199',
+        '[station.openevse]\nurl = "http://10.0.0.1"\npassword = ["20241199"]',
+        '[station.openevse]\nurl = "http://10.0.0.1"\npassword = { old = "20241199" }',
+        '[station.openevse]\nurl = "http://admin:20241199@10.0.0.1"',
+        '[[station.openevse]]\nurl = "http://10.0.0.1"\npassword = "20241199"',
+        '[station.ocpp]\ncharge_point = "a"\npassword = 20241199',
+        'station.openevse = { url = "nonsense", password = "20241199" }',
+    ],
+)
+def test_no_secret_is_ever_told(text: str) -> None:
+    for problem in problems_of(text):
+        assert "20241199" not in problem
+        assert problem.startswith("station.")

@@ -7,7 +7,12 @@ from typing import Any
 import pytest
 
 from drivers.robot import BoardState, FaultCode, RobotState
-from server.control.errors import ControlBusyError, ControlLostError, RobotOfflineError
+from server.control.errors import (
+    ControlBusyError,
+    ControlLostError,
+    RobotOfflineError,
+    StationUnsafeError,
+)
 from server.control.model import PlugState, RobotMode
 from server.control.plug_guard import Corridor, PlugRecord
 from server.live.views import robot_view
@@ -135,7 +140,10 @@ def test_positions_lost_while_connected_make_the_plug_unknown_at_once() -> None:
     """Otherwise the way out would be planned in coordinates that no longer hold."""
 
     async def scenario(cell: RobotCell) -> None:
-        async with cell.supervisor.control("job", "Test") as lease:
+        async with (
+            cell.supervisor.control("job", "Test") as lease,
+            cell.supervisor.plug_may_move(),
+        ):
             plan = asyncio.create_task(
                 cell.supervisor.move_joints(lease, INSIDE._replace(rho3_mm=60.0))
             )
@@ -149,7 +157,10 @@ def test_positions_lost_while_connected_make_the_plug_unknown_at_once() -> None:
         cell.garage.robot.mend_limit(0)
         await cell.supervisor.reset()
         async with cell.supervisor.control("homing", "Test") as lease:
-            await cell.supervisor.withdraw_home(lease)
+            with pytest.raises(StationUnsafeError):
+                await cell.supervisor.withdraw_home(lease)
+            async with cell.supervisor.plug_may_move():
+                await cell.supervisor.withdraw_home(lease)
         assert cell.plug() is PlugState.FREE
 
     store = MemoryPlug(PlugRecord(PlugState.INSERTED, CORRIDOR))

@@ -230,7 +230,7 @@ def test_a_disk_that_fails_keeps_the_robot_in_its_parking_place() -> None:
 def test_with_a_held_plug_only_the_way_out_is_open(state: PlugState) -> None:
     async def scenario(cell: RobotCell) -> None:
         supervisor = cell.supervisor
-        async with supervisor.control("job", "Test") as lease:
+        async with supervisor.control("job", "Test") as lease, supervisor.plug_may_move():
             here = cell.robot.commanded.position
             for target in (
                 here._replace(rho1_mm=here.rho1_mm + 1.0),
@@ -255,7 +255,7 @@ def test_with_a_held_plug_only_the_way_out_is_open(state: PlugState) -> None:
 def test_the_permission_to_go_in_ends_with_one_motion() -> None:
     async def scenario(cell: RobotCell) -> None:
         supervisor = cell.supervisor
-        async with supervisor.control("job", "Test") as lease:
+        async with supervisor.control("job", "Test") as lease, supervisor.load.watching():
             await supervisor.plug.about_to_enter(CORRIDOR)
             with pytest.raises(LateralMotionForbiddenError, match="further in"):
                 await supervisor.move_joints(lease, AT._replace(rho3_mm=116.0))

@@ -8,7 +8,9 @@ from typing import Any
 import pytest
 
 from drivers.station import PilotState, StationCapabilities, StationSnapshot
-from server.jobs.phases.releasing import FRESH_S, why_not_safe
+from server.control.load_rule import why_not_safe
+
+FRESH_S = 1.0
 
 ALL = StationCapabilities(switches=True, holds=True, unlocks=True)
 READ_ONLY = StationCapabilities(switches=False, holds=False, unlocks=False)
@@ -45,5 +47,10 @@ SAFE = StationSnapshot(
 def test_why_not_safe(
     change: dict[str, Any], capabilities: StationCapabilities, age_s: float, code: str | None
 ) -> None:
-    problem = why_not_safe(replace(SAFE, **change), capabilities, SAFE.sampled_at_s + age_s)
+    problem = why_not_safe(
+        replace(SAFE, **change),
+        capabilities,
+        SAFE.sampled_at_s + age_s,
+        age_limit_s=FRESH_S,
+    )
     assert (problem.code if problem else None) == code

@@ -73,11 +73,16 @@ def test_one_lost_answer_does_not_undo_an_insertion() -> None:
         station = scene.garage.station
         job = await scene.start(JobType.PLUG_IN)
         await scene.until_phase(JobPhase.INSERTING)
+        await scene.until_moving()
         station.hang()
+        await scene.later(0.5)
+        station.behave()
         await scene.until_phase(JobPhase.PLUGGED)
+        station.hang()
         await scene.later(1.0)
         station.behave()
         assert (await scene.ended(job)).error is None
+        assert "insertion_waits" not in await scene.kinds(job)
 
     on_scene(scenario, seed=4)
 
@@ -136,6 +141,7 @@ def test_a_station_that_falls_silent_stops_the_withdrawal(*, blind: bool) -> Non
             await scene.services.supervisor.plug.doubt()
         job = await scene.start(JobType.UNPLUG)
         await scene.until_phase(JobPhase.WITHDRAWING)
+        await scene.until_moving()
         scene.garage.station.hang()
         assert _code(await scene.ended(job)) == "station_unsafe"
         await scene.later(0.5)

@@ -1,71 +1,27 @@
 from __future__ import annotations
 
-import sqlite3
 import subprocess
 import sys
-from collections.abc import Callable
-from datetime import UTC, datetime, timedelta, timezone
+from datetime import UTC
 from pathlib import Path
 
 import pytest
 from sqlalchemy import text
 from sqlalchemy.orm import Session
 
-from server.jobs.model import JobPhase, JobState, JobType
+from server.jobs.model import JobState
 from server.labels.payload import LabelKey
 from server.schema.jobs import Job, JobEvent, JobResult
 from server.schema.vehicles import SocketOffset, VehicleSettings
-from server.storage.database import FILE_NAME, SCHEMA_VERSION, Database
 from server.storage.errors import (
-    DatabaseBrokenError,
-    DatabaseVersionError,
     DataFolderError,
     StorageError,
 )
 from server.storage.jobs import JobStore
+from server.storage.sqlite_home import FILE_NAME
 from server.storage.vehicles import VehicleStore
+from tests.server.storage.samples import NOW, advanced, event, healthy, job, opened
 from tests.support.virtual import run_virtual
-
-NOW = datetime(2026, 3, 1, 12, 0, tzinfo=timezone(timedelta(hours=1)))
-
-
-def job(number: int, state: JobState = JobState.RUNNING) -> Job:
-    return Job(
-        id=f"0190{number:04d}-0000-7000-8000-000000000000",
-        type=JobType.CHARGE,
-        state=state,
-        phase=JobPhase.PREFLIGHT,
-        vehicle_id="demo",
-        target_energy_wh=None,
-        created_at=NOW,
-        updated_at=NOW,
-        phase_started_at=NOW,
-        cancel_requested=False,
-        result=JobResult(),
-        error=None,
-    )
-
-
-def event(sequence: int, message: str = "Something happened.") -> JobEvent:
-    return JobEvent(
-        sequence=sequence,
-        at=NOW,
-        kind="note",
-        phase=JobPhase.PREFLIGHT,
-        message=message,
-        data={"depth_mm": 1.5},
-    )
-
-
-def advanced(number: int) -> Job:
-    """The first job after so many events."""
-    return job(1).model_copy(update={"result": JobResult(energy_wh=float(number))})
-
-
-async def opened(folder: Path | None) -> Database:
-    database = Database(folder)
-    await database.open()
-    return database
 
 
 def refusal(folder: Path) -> StorageError:
@@ -78,41 +34,6 @@ def refusal(folder: Path) -> StorageError:
         run_virtual(scenario())
     assert raised.value.remedy
     return raised.value
-
-
-def healthy(folder: Path) -> Path:
-    """A database with a hundred jobs, closed; returns its file."""
-
-    async def scenario() -> None:
-        database = await opened(folder)
-        for number in range(100):
-            await JobStore(database).add(job(number), key=None, digest=None)
-        await database.close()
-
-    run_virtual(scenario())
-    return folder / FILE_NAME
-
-
-def test_a_file_that_is_no_database_is_called_damaged(tmp_path: Path) -> None:
-    (tmp_path / FILE_NAME).write_bytes(b"shopping list\n" * 1000)
-    error = refusal(tmp_path)
-    assert isinstance(error, DatabaseBrokenError)
-    assert FILE_NAME in error.detail
-    assert (tmp_path / FILE_NAME).read_bytes().startswith(b"shopping list"), "it is left alone"
-
-
-@pytest.mark.parametrize(
-    "damage",
-    [
-        pytest.param(lambda data: data[: len(data) // 2], id="cut off"),
-        pytest.param(lambda data: data[:4096] + b"\x55" * (len(data) - 4096), id="overwritten"),
-        pytest.param(lambda data: data[:100] + b"\xff" * 300 + data[400:], id="first page"),
-    ],
-)
-def test_a_damaged_file_is_called_damaged(tmp_path: Path, damage: Callable[[bytes], bytes]) -> None:
-    file = healthy(tmp_path)
-    file.write_bytes(damage(file.read_bytes()))
-    assert isinstance(refusal(tmp_path), DatabaseBrokenError)
 
 
 def test_an_empty_file_becomes_a_database(tmp_path: Path) -> None:
@@ -132,47 +53,9 @@ def test_a_file_that_cannot_be_opened_says_so(tmp_path: Path) -> None:
     assert isinstance(refusal(tmp_path), DataFolderError)
 
 
-def test_the_database_of_a_newer_version_is_left_alone(tmp_path: Path) -> None:
-    file = healthy(tmp_path)
-    with sqlite3.connect(file) as connection:
-        connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION + 1}")
-    connection.close()
-    error = refusal(tmp_path)
-    assert isinstance(error, DatabaseVersionError)
-    assert error.context["version"] == SCHEMA_VERSION + 1
-
-
 def test_the_folder_is_made_and_belongs_to_its_owner_alone(tmp_path: Path) -> None:
     healthy(tmp_path / "a" / "b")
     assert (tmp_path / "a" / "b").stat().st_mode & 0o077 == 0
-
-
-def test_a_full_disk_keeps_nothing_of_the_piece_of_work(tmp_path: Path) -> None:
-    async def scenario() -> None:
-        database = await opened(tmp_path)
-        jobs = JobStore(database)
-        await jobs.add(job(1), key=None, digest=None)
-
-        def fill_up(session: Session) -> None:
-            pages = session.scalar(text("PRAGMA page_count"))
-            session.execute(text(f"PRAGMA max_page_count = {pages}"))
-
-        async def write_for_ever() -> None:
-            for number in range(1, 2000):
-                await jobs.save(advanced(number), event(number, "x" * 500))
-
-        await database.run(fill_up)
-        with pytest.raises(StorageError, match="full") as raised:
-            await write_for_ever()
-        assert "sqlalche" not in raised.value.detail, "words for people"
-        kept = await jobs.get(job(1).id)
-        assert kept is not None
-        events = await jobs.events(job(1).id)
-        assert events
-        assert kept == advanced(len(events))
-        await database.close()
-
-    run_virtual(scenario())
 
 
 def test_commits_reach_the_disk_and_not_only_the_systems_memory(tmp_path: Path) -> None:
@@ -198,7 +81,7 @@ import asyncio, sys
 from pathlib import Path
 from server.storage.database import Database
 from server.storage.jobs import JobStore
-from tests.server.storage.test_database import advanced, event, job
+from tests.server.storage.samples import advanced, event, job
 
 async def main():
     database = Database(Path(sys.argv[1]))

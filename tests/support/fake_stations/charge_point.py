@@ -28,6 +28,8 @@ class FakeChargePoint:
         self.deaf = False
         self.silent_triggers = False
         self.heard: list[str] = []
+        self.asked: dict[str, dict[str, Any]] = {}
+        """The newest question of each kind."""
         self.samples: list[dict[str, str]] | None = None
         self._socket: websockets.asyncio.client.ClientConnection | None = None
         self._own_calls: dict[str, asyncio.Future[dict[str, Any]]] = {}
@@ -144,6 +146,7 @@ class FakeChargePoint:
     async def _answer(self, number: str, action: str, asked: dict[str, Any]) -> None:
         assert self._socket is not None
         self.heard.append(action)
+        self.asked[action] = asked
         status = self._decide(action, asked)
         await self._socket.send(json.dumps([3, number, {"status": status}]))
         if status == "Accepted":

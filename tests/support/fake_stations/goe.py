@@ -14,6 +14,7 @@ class FakeGoe:
     def __init__(self) -> None:
         self.car = 1
         self.frc = 0
+        self.amp = 32
         self.fields: dict[str, Any] = {}
         self.uptime_ms = 1_000_000
         self.clock_stands = False
@@ -73,10 +74,13 @@ class FakeGoe:
             return {key: everything[key] for key in filter.split(",")}
 
         @app.get("/api/set")
-        async def set_(frc: int) -> Response:
+        async def set_(frc: int | None = None, amp: int | None = None) -> Response:
+            name = "amp" if frc is None else "frc"
             if self.refuses:
-                return JSONResponse({"frc": "read-only"})
-            self.force(frc)
-            return JSONResponse({"frc": True})
+                return JSONResponse({name: "read-only"})
+            if frc is not None:
+                self.force(frc)
+            self.amp = amp if amp is not None else self.amp
+            return JSONResponse({name: True})
 
         return app

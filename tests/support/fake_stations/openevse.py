@@ -44,7 +44,7 @@ class FakeOpenevse:
     def active(self) -> bool:
         """What the claim of the highest priority wants; without any, it is active."""
         claims = []
-        if self.override:
+        if self.override and "state" in self.override:
             claims.append((OVERRIDE_PRIORITY, self.override["state"]))
         if self.limit and self.limit["type"] == "energy" and self.session_wh >= self.limit["value"]:
             claims.append((LIMIT_PRIORITY, "disabled"))

@@ -12,7 +12,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Snapshot
+         * Take a picture
          * @description A new picture at full size.
          */
         readonly get: operations["getCameraSnapshot"];
@@ -32,10 +32,166 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Stream
+         * Follow the camera
          * @description Pictures as they come, newest only (multipart/x-mixed-replace).
          */
         readonly get: operations["streamCamera"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/charge-point": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read the charger
+         * @description State, power and energy, from the newest reading of the station.
+         *
+         *     A parked car counts as connected (B) before the plug is in: energy managers never enable a
+         *     charger without a car. After somebody has unplugged the car, or it has charged, the charger
+         *     reports A until it is resumed.
+         */
+        readonly get: operations["getChargePoint"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/charge-point/enabled": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        /**
+         * Let the car charge, or no more
+         * @description Enabled, the robot plugs the car in if needed, and lets it charge.
+         *
+         *     Disabled, the car gets no energy but stays plugged in. Answers at once; the state shows how far
+         *     it is. The same value again changes nothing.
+         */
+        readonly put: operations["enableChargePoint"];
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/charge-point/max-current": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        /**
+         * Limit the current
+         * @description Passed on to stations that can; `limits_current` says whether ours does.
+         */
+        readonly put: operations["limitChargePoint"];
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/charge-point/resume": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * End the rest
+         * @description A person, or something that knows that the car has come, lets it be plugged in again.
+         *
+         *     Nothing moves before the energy manager enables the charger.
+         */
+        readonly post: operations["resumeChargePoint"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read all settings
+         * @description Everything that can be set, with what is in force. Secrets are hidden.
+         */
+        readonly get: operations["getConfig"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        /**
+         * Change settings
+         * @description Change settings that need no restart; they are kept, and win over the configuration file.
+         */
+        readonly patch: operations["patchConfig"];
+        readonly trace?: never;
+    };
+    readonly "/api/v1/events": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List events
+         * @description The newest events, oldest first; what a restart has taken away is not in it.
+         */
+        readonly get: operations["listEvents"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/events/stream": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Follow events
+         * @description Events as they happen, for as long as the connection lasts.
+         *
+         *     With Last-Event-ID also those that were missed; where they are not known any more, one event
+         *     `gap` comes in their place: read the state again. Lines that begin with a colon mean nothing.
+         */
+        readonly get: operations["streamEvents"];
         readonly put?: never;
         readonly post?: never;
         readonly delete?: never;
@@ -52,7 +208,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Health
+         * Read the health of every part
          * @description Health of every part. Answers 200 as long as the service itself runs.
          */
         readonly get: operations["getHealth"];
@@ -72,14 +228,16 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * List Jobs
+         * List jobs
          * @description Jobs, newest first.
          */
         readonly get: operations["listJobs"];
         readonly put?: never;
         /**
-         * Create Job
-         * @description Accept a job and begin it at once. Watch it over the WebSocket or at its Location.
+         * Begin a job
+         * @description Accept a job. Watch it over the WebSocket or at its Location.
+         *
+         *     It begins at once, or at `not_before`. While another job runs, one more may wait for it.
          */
         readonly post: operations["createJob"];
         readonly delete?: never;
@@ -96,7 +254,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Job
+         * Read a job
          * @description One job.
          */
         readonly get: operations["getJob"];
@@ -118,7 +276,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Cancel Job
+         * Cancel a job
          * @description Stop the job and bring plug and robot back to safety.
          */
         readonly post: operations["cancelJob"];
@@ -136,8 +294,8 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * List Events
-         * @description The journal of a job, oldest entry first.
+         * Read the journal of a job
+         * @description Oldest entry first.
          */
         readonly get: operations["listJobEvents"];
         readonly put?: never;
@@ -158,10 +316,32 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Finish Job
+         * End the charging
          * @description End the charging now; the job goes on to unplug and park.
          */
         readonly post: operations["finishJob"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/jobs/{job_id}/pause": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Pause a job
+         * @description Let the job come to rest: the robot stands still, and a charging car gets no power.
+         *
+         *     It keeps control of the robot until it is resumed or cancelled.
+         */
+        readonly post: operations["pauseJob"];
         readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
@@ -176,7 +356,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Playback
+         * Make a playback ready
          * @description Make the recording ready to be watched in 3D, and say what happens when.
          *
          *     Then open ``/twin/?playbackPath=/api/v1/jobs/{job_id}/playback.viser``. Making it takes some
@@ -199,7 +379,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Playback File
+         * Download a playback
          * @description The playback as the 3D picture reads it.
          */
         readonly get: operations["getJobPlaybackFile"];
@@ -219,12 +399,32 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Recording
+         * Download a recording
          * @description What was recorded of the job, as an MCAP file. Foxglove opens it.
          */
         readonly get: operations["getJobRecording"];
         readonly put?: never;
         readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/jobs/{job_id}/resume": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Resume a job
+         * @description Go on with a paused job, or with one that needs a person. What can be seen decides how.
+         */
+        readonly post: operations["resumeJob"];
         readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
@@ -239,7 +439,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Robot
+         * Read the robot
          * @description The robot now.
          */
         readonly get: operations["getRobot"];
@@ -261,7 +461,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Disable
+         * Switch the drives off
          * @description Switch the drives off.
          */
         readonly post: operations["disableRobot"];
@@ -281,7 +481,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Enable
+         * Switch the drives on
          * @description Switch the drives on.
          */
         readonly post: operations["enableRobot"];
@@ -301,7 +501,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Emergency Stop
+         * Emergency stop
          * @description Emergency stop (category 1), latched until reset. Never refused.
          */
         readonly post: operations["emergencyStopRobot"];
@@ -321,7 +521,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Home
+         * Find the zero of each axis
          * @description Find the zero of each axis; answers when it is done.
          */
         readonly post: operations["homeRobot"];
@@ -341,7 +541,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Jog
+         * Move one step
          * @description One step of one axis; answers when it is done. Held motion goes over the WebSocket.
          */
         readonly post: operations["jogRobot"];
@@ -361,7 +561,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Confirm Plug
+         * Confirm that the plug is out
          * @description A person has looked and says that the plug is out of the car.
          */
         readonly post: operations["confirmPlug"];
@@ -379,7 +579,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Reach
+         * Read the ways left
          * @description How far each axis can still go from here.
          */
         readonly get: operations["getRobotReach"];
@@ -401,7 +601,7 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Reset
+         * Release stops and faults
          * @description Release stop, emergency stop and fault. Nothing moves by itself afterwards.
          */
         readonly post: operations["resetRobot"];
@@ -439,7 +639,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Station
+         * Read the charging station
          * @description Newest reading of the charging station.
          */
         readonly get: operations["getStation"];
@@ -459,8 +659,8 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * List Vehicles
-         * @description All vehicles, by name.
+         * List vehicles
+         * @description Vehicles, by name.
          */
         readonly get: operations["listVehicles"];
         readonly put?: never;
@@ -479,19 +679,19 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Vehicle
+         * Read a vehicle
          * @description One vehicle.
          */
         readonly get: operations["getVehicle"];
         /**
-         * Put Vehicle
-         * @description Add or change a vehicle.
+         * Add or change a vehicle
+         * @description To change one, send its ETag as If-Match; to add one, leave that out.
          */
         readonly put: operations["putVehicle"];
         readonly post?: never;
         /**
-         * Delete Vehicle
-         * @description Forget a vehicle. Its jobs stay in the history.
+         * Forget a vehicle
+         * @description Its jobs stay in the history.
          */
         readonly delete: operations["deleteVehicle"];
         readonly options?: never;
@@ -499,10 +699,234 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/webhooks": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List webhooks
+         * @description Webhooks, oldest first. Their secrets are not shown.
+         */
+        readonly get: operations["listWebhooks"];
+        readonly put?: never;
+        /**
+         * Make a webhook
+         * @description Each event is sent as POST, signed as Standard Webhooks 1.0 describe.
+         *
+         *     The answer holds the secret; it is shown this once. What is not answered with 2xx within 10 s
+         *     is tried again after 5 s, 5 min, 30 min, 2 h and 5 h; an answer 410 switches the webhook off.
+         */
+        readonly post: operations["createWebhook"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/webhooks/{webhook_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read a webhook
+         * @description One webhook, without its secret.
+         */
+        readonly get: operations["getWebhook"];
+        /**
+         * Change a webhook
+         * @description What waits goes to the new target; switched off, it is dropped. The secret stays.
+         */
+        readonly put: operations["putWebhook"];
+        readonly post?: never;
+        /**
+         * Delete a webhook
+         * @description Nothing more is sent; its deliveries are forgotten.
+         */
+        readonly delete: operations["deleteWebhook"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/webhooks/{webhook_id}/deliveries": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List deliveries
+         * @description What waits and what came of the rest, newest first.
+         */
+        readonly get: operations["listWebhookDeliveries"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/webhooks/{webhook_id}/ping": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Try a webhook out
+         * @description Send an event of the type ping. The list of deliveries shows what came of it.
+         */
+        readonly post: operations["pingWebhook"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/webhooks/{webhook_id}/rotate-secret": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Give a webhook another secret
+         * @description The old one signs nothing any more, from the next attempt on.
+         */
+        readonly post: operations["rotateWebhookSecret"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
 }
-export type webhooks = Record<string, never>;
+export interface webhooks {
+    readonly event: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * An event, signed as Standard Webhooks 1.0 describe
+         * @description The headers webhook-id, webhook-timestamp and webhook-signature prove who sent it and when. Answer 2xx within 10 s; 410 ends the webhook.
+         */
+        readonly post: operations["receiveEvent"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+}
 export interface components {
     schemas: {
+        /**
+         * Attempt
+         * @description One attempt to deliver.
+         */
+        readonly Attempt: {
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /** Duration S */
+            readonly duration_s: number;
+            /**
+             * Error
+             * @description What went wrong, in words; null if nothing did
+             */
+            readonly error: string | null;
+            /**
+             * Status
+             * @description HTTP status of the answer; null without one
+             */
+            readonly status: number | null;
+        };
+        /**
+         * ChargePoint
+         * @description One charger. A car is connected (B) as soon as the robot could plug it in.
+         */
+        readonly ChargePoint: {
+            /**
+             * Connector Locked
+             * @description Null where the station does not say
+             */
+            readonly connector_locked: boolean | null;
+            /** Contactor Closed */
+            readonly contactor_closed: boolean;
+            /** @description As IEC 61851. A: nothing to charge; B: a car is plugged in or can be; C, D: it charges; E: the station does not answer; F: robot or station need a person */
+            readonly cp_state: components["schemas"]["PilotState"];
+            /**
+             * Currents A
+             * @description Of each phase
+             */
+            readonly currents_a: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Enabled
+             * @description What was asked for last; false while it rests
+             */
+            readonly enabled: boolean;
+            /**
+             * Energy Kwh
+             * @description All energy so far; it never counts backwards
+             */
+            readonly energy_kwh: number;
+            /**
+             * Limits Current
+             * @description The station obeys max_current_a
+             */
+            readonly limits_current: boolean;
+            /**
+             * Max Current A
+             * @description What was asked for last; null: nothing yet
+             */
+            readonly max_current_a: number | null;
+            /**
+             * Power W
+             * @description Active power now
+             */
+            readonly power_w: number;
+            /**
+             * Resting
+             * @description Why it reports A and takes no command until somebody resumes it
+             */
+            readonly resting: ("unplugged" | "charged" | "failed") | null;
+            /**
+             * Robot State
+             * @enum {string}
+             */
+            readonly robot_state: "parked" | "plugging" | "plugged" | "charging" | "paused" | "unplugging" | "stopped" | "fault";
+            /**
+             * Updated At
+             * @description When the station was read; null: never yet
+             */
+            readonly updated_at: string | null;
+        };
         readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
          * CommandedMotion
@@ -529,6 +953,26 @@ export interface components {
             readonly status: "ok" | "degraded" | "down";
         };
         /**
+         * Configuration
+         * @description All settings in force.
+         */
+        readonly Configuration: {
+            /**
+             * Changeable
+             * @description Sections that can be changed here; the others are in the configuration file
+             */
+            readonly changeable: readonly string[];
+            /**
+             * Settings
+             * @description By section, as in the configuration file; secrets are hidden
+             */
+            readonly settings: {
+                readonly [key: string]: {
+                    readonly [key: string]: components["schemas"]["JsonValue"];
+                };
+            };
+        };
+        /**
          * ControlHolder
          * @description Who has control of the robot.
          */
@@ -552,6 +996,67 @@ export interface components {
             readonly since: string;
         };
         /**
+         * CurrentLimit
+         * @description How much the car may draw.
+         */
+        readonly CurrentLimit: {
+            /**
+             * Max Current A
+             * @description For each phase
+             */
+            readonly max_current_a: number;
+        };
+        /**
+         * Delivery
+         * @description One event for one webhook.
+         */
+        readonly Delivery: {
+            /** Attempts */
+            readonly attempts: readonly components["schemas"]["Attempt"][];
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /**
+             * Event Id
+             * @description Sent as webhook-id, the same in every attempt
+             */
+            readonly event_id: string;
+            /**
+             * Event Type
+             * @example job.ended
+             */
+            readonly event_type: string;
+            /** Id */
+            readonly id: string;
+            /**
+             * Next Attempt At
+             * @description Null once it has ended
+             */
+            readonly next_attempt_at: string | null;
+            /**
+             * State
+             * @description dropped: it gave way to newer ones, or the webhook was switched off
+             * @enum {string}
+             */
+            readonly state: "waiting" | "delivered" | "failed" | "dropped";
+        };
+        /**
+         * DeliveryPage
+         * @description Deliveries, newest first.
+         */
+        readonly DeliveryPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["Delivery"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
          * DeltaMessage
          * @description Sections that changed since the last message on this connection.
          */
@@ -564,6 +1069,42 @@ export interface components {
              * @enum {string}
              */
             readonly type: "delta";
+        };
+        /**
+         * DivergenceChanged
+         * @description Data of twin.divergence.
+         */
+        readonly DivergenceChanged: {
+            /**
+             * Began
+             * @description False: robot and model agree again
+             */
+            readonly began: boolean;
+            readonly divergence: components["schemas"]["DivergenceReport"];
+        };
+        /**
+         * DivergenceEvent
+         * @description The robot and the model beside it have parted, or agree again.
+         */
+        readonly DivergenceEvent: {
+            readonly data: components["schemas"]["DivergenceChanged"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "twin.divergence";
         };
         /**
          * DivergenceReport
@@ -642,6 +1183,40 @@ export interface components {
             readonly type: "emergency_stop";
         };
         /**
+         * Enablement
+         * @description Whether the car may charge.
+         */
+        readonly Enablement: {
+            /** Enabled */
+            readonly enabled: boolean;
+        };
+        readonly Event: components["schemas"]["JobCreated"] | components["schemas"]["JobPhaseBegan"] | components["schemas"]["JobStateChanged"] | components["schemas"]["JobEnded"] | components["schemas"]["PlugChanged"] | components["schemas"]["RobotFaultEvent"] | components["schemas"]["NeedsPersonEvent"] | components["schemas"]["DivergenceEvent"] | components["schemas"]["PingEvent"];
+        /**
+         * EventPage
+         * @description Events, oldest first.
+         */
+        readonly EventPage: {
+            /**
+             * Complete
+             * @description False: some that came after the cursor are not known any more
+             */
+            readonly complete: boolean;
+            /** Items */
+            readonly items: readonly (components["schemas"]["JobCreated"] | components["schemas"]["JobPhaseBegan"] | components["schemas"]["JobStateChanged"] | components["schemas"]["JobEnded"] | components["schemas"]["PlugChanged"] | components["schemas"]["RobotFaultEvent"] | components["schemas"]["NeedsPersonEvent"] | components["schemas"]["DivergenceEvent"] | components["schemas"]["PingEvent"])[];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
+         * FaultBegan
+         * @description Data of robot.fault.
+         */
+        readonly FaultBegan: {
+            readonly fault: components["schemas"]["RobotFault"];
+        };
+        /**
          * Health
          * @description Whether the service works, part by part.
          */
@@ -680,6 +1255,16 @@ export interface components {
              * @description Sortable by time (UUID version 7)
              */
             readonly id: string;
+            /** @description Running, but it waits until a person has decided */
+            readonly needs_person?: components["schemas"]["NeedsPerson"] | null;
+            /** Not Before */
+            readonly not_before?: string | null;
+            /**
+             * Paused
+             * @description It waits for POST /jobs/{id}/resume; nothing moves or charges
+             * @default false
+             */
+            readonly paused?: boolean;
             readonly phase: components["schemas"]["JobPhase"];
             /**
              * Phase Started At
@@ -694,6 +1279,8 @@ export interface components {
             /** Target Energy Wh */
             readonly target_energy_wh: number | null;
             readonly type: components["schemas"]["JobType"];
+            /** Unplug By */
+            readonly unplug_by?: string | null;
             /**
              * Updated At
              * Format: date-time
@@ -706,6 +1293,54 @@ export interface components {
              * @example zoe
              */
             readonly vehicle_id: string;
+        };
+        /**
+         * JobCreated
+         * @description A job was accepted.
+         */
+        readonly JobCreated: {
+            readonly data: components["schemas"]["JobHappened"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "job.created";
+        };
+        /**
+         * JobEnded
+         * @description A job has ended; its state says how, its error why.
+         */
+        readonly JobEnded: {
+            readonly data: components["schemas"]["JobHappened"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "job.ended";
         };
         /**
          * JobEvent
@@ -743,6 +1378,18 @@ export interface components {
         readonly JobEvents: {
             /** Items */
             readonly items: readonly components["schemas"]["JobEvent"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
+         * JobHappened
+         * @description Data of job events.
+         */
+        readonly JobHappened: {
+            readonly job: components["schemas"]["Job"];
         };
         /**
          * JobPage
@@ -764,16 +1411,50 @@ export interface components {
          */
         readonly JobPhase: "preflight" | "locating" | "aligning" | "inserting" | "plugged" | "charging" | "releasing" | "withdrawing" | "parking";
         /**
+         * JobPhaseBegan
+         * @description A job has entered a phase.
+         */
+        readonly JobPhaseBegan: {
+            readonly data: components["schemas"]["JobHappened"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "job.phase";
+        };
+        /**
          * JobRequest
          * @description A job to be done.
          */
         readonly JobRequest: {
+            /**
+             * Not Before
+             * @description Begin then; null: as soon as the robot is free
+             */
+            readonly not_before?: string | null;
             /**
              * Target Energy Wh
              * @description Charge: stop after this much energy; null: until full
              */
             readonly target_energy_wh?: number | null;
             readonly type: components["schemas"]["JobType"];
+            /**
+             * Unplug By
+             * @description Charge: stop in time to be unplugged then, however full
+             */
+            readonly unplug_by?: string | null;
             /**
              * Vehicle Id
              * @description Null takes the only vehicle; with several it must be given
@@ -827,6 +1508,30 @@ export interface components {
          * @enum {string}
          */
         readonly JobState: "queued" | "running" | "succeeded" | "failed" | "cancelled";
+        /**
+         * JobStateChanged
+         * @description A job was paused or resumed, or waits for a person, or no longer does.
+         */
+        readonly JobStateChanged: {
+            readonly data: components["schemas"]["JobHappened"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "job.state";
+        };
         /**
          * JobType
          * @description What a job is to do.
@@ -930,6 +1635,7 @@ export interface components {
             /** Rho3 Mm */
             readonly rho3_mm: number;
         };
+        readonly JsonValue: unknown;
         /**
          * Live
          * @description Every live section.
@@ -978,6 +1684,108 @@ export interface components {
             readonly tip: components["schemas"]["Tip"] | null;
         };
         /**
+         * NeedsPerson
+         * @description Why a job does not go on by itself, and what a person may choose.
+         */
+        readonly NeedsPerson: {
+            /**
+             * Choices
+             * @description resume: POST /jobs/{id}/resume; cancel: POST /jobs/{id}/cancel
+             */
+            readonly choices: readonly components["schemas"]["PersonChoice"][];
+            /**
+             * Code
+             * @example robot_fault
+             */
+            readonly code: string;
+            /**
+             * Sentence
+             * @description In words: what was seen, and what to do first
+             */
+            readonly sentence: string;
+        };
+        /**
+         * NeedsPersonEvent
+         * @description The robot cannot go on without a person, or can again.
+         */
+        readonly NeedsPersonEvent: {
+            readonly data: components["schemas"]["PersonNeeded"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "robot.needs_person";
+        };
+        /**
+         * PersonChoice
+         * @description What a person may answer to a job that asks.
+         * @enum {string}
+         */
+        readonly PersonChoice: "resume" | "cancel";
+        /**
+         * PersonNeeded
+         * @description Data of robot.needs_person.
+         */
+        readonly PersonNeeded: {
+            /**
+             * Needed
+             * @description False: the robot can go on by itself again
+             */
+            readonly needed: boolean;
+            /** @description Null when nobody is needed any more */
+            readonly reason: components["schemas"]["RobotFault"] | null;
+        };
+        /**
+         * PilotState
+         * @description Control pilot states of IEC 61851-1.
+         * @enum {string}
+         */
+        readonly PilotState: "A" | "B" | "C" | "D" | "E" | "F";
+        /**
+         * Ping
+         * @description Data of ping.
+         */
+        readonly Ping: {
+            /** Message */
+            readonly message: string;
+        };
+        /**
+         * PingEvent
+         * @description Somebody tries out a webhook.
+         */
+        readonly PingEvent: {
+            readonly data: components["schemas"]["Ping"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "ping";
+        };
+        /**
          * Playback
          * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
          */
@@ -1012,6 +1820,30 @@ export interface components {
             readonly text: string;
         };
         /**
+         * PlugChanged
+         * @description The plug is somewhere else.
+         */
+        readonly PlugChanged: {
+            readonly data: components["schemas"]["PlugMoved"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "plug.changed";
+        };
+        /**
          * PlugConfirmation
          * @description A person has looked: the plug is out of the car.
          */
@@ -1021,6 +1853,15 @@ export interface components {
              * @constant
              */
             readonly state: "free";
+        };
+        /**
+         * PlugMoved
+         * @description Data of plug.changed.
+         */
+        readonly PlugMoved: {
+            /** @description Null right after the start of PlugPilot */
+            readonly before: components["schemas"]["PlugState"] | null;
+            readonly plug: components["schemas"]["PlugState"];
         };
         /**
          * PlugState
@@ -1174,6 +2015,30 @@ export interface components {
             readonly remedy: string;
             /** Title */
             readonly title: string;
+        };
+        /**
+         * RobotFaultEvent
+         * @description The motion board reports a fault, or does not answer.
+         */
+        readonly RobotFaultEvent: {
+            readonly data: components["schemas"]["FaultBegan"];
+            /**
+             * Id
+             * @description The same in every attempt and every stream; sortable by time (UUID version 7)
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Timestamp
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly timestamp: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "robot.fault";
         };
         /**
          * RobotMode
@@ -1419,11 +2284,16 @@ export interface components {
         };
         /**
          * VehicleList
-         * @description All vehicles, by name.
+         * @description Vehicles, by name.
          */
         readonly VehicleList: {
             /** Items */
             readonly items: readonly components["schemas"]["Vehicle"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
         };
         /**
          * VehicleSettings
@@ -1468,8 +2338,396 @@ export interface components {
              */
             readonly on_mm: number;
         };
+        /**
+         * Webhook
+         * @description Somebody who is told what happens.
+         */
+        readonly Webhook: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /**
+             * Description
+             * @default
+             */
+            readonly description?: string;
+            /**
+             * Disabled Reason
+             * @description Why PlugPilot switched it off, such as an answer 410 Gone
+             */
+            readonly disabled_reason: string | null;
+            /**
+             * Enabled
+             * @description False keeps it, but sends nothing
+             * @default true
+             */
+            readonly enabled?: boolean;
+            /**
+             * Events
+             * @description Which events to send
+             */
+            readonly events: readonly ("job.created" | "job.phase" | "job.state" | "job.ended" | "plug.changed" | "robot.fault" | "robot.needs_person" | "twin.divergence")[];
+            /**
+             * Id
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Url
+             * @description HTTPS for public addresses. A target in the home network, by HTTP too, must be in webhooks.allowed_networks of the configuration. Redirects are not followed
+             * @example https://example.com/plugpilot
+             */
+            readonly url: string;
+        };
+        /**
+         * WebhookPage
+         * @description Webhooks, oldest first.
+         */
+        readonly WebhookPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["Webhook"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
+         * WebhookSettings
+         * @description What somebody says about a webhook.
+         */
+        readonly WebhookSettings: {
+            /**
+             * Description
+             * @default
+             */
+            readonly description?: string;
+            /**
+             * Enabled
+             * @description False keeps it, but sends nothing
+             * @default true
+             */
+            readonly enabled?: boolean;
+            /**
+             * Events
+             * @description Which events to send
+             */
+            readonly events: readonly ("job.created" | "job.phase" | "job.state" | "job.ended" | "plug.changed" | "robot.fault" | "robot.needs_person" | "twin.divergence")[];
+            /**
+             * Url
+             * @description HTTPS for public addresses. A target in the home network, by HTTP too, must be in webhooks.allowed_networks of the configuration. Redirects are not followed
+             * @example https://example.com/plugpilot
+             */
+            readonly url: string;
+        };
+        /**
+         * WebhookWithSecret
+         * @description A webhook with its secret, which is shown this once.
+         */
+        readonly WebhookWithSecret: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /**
+             * Description
+             * @default
+             */
+            readonly description?: string;
+            /**
+             * Disabled Reason
+             * @description Why PlugPilot switched it off, such as an answer 410 Gone
+             */
+            readonly disabled_reason: string | null;
+            /**
+             * Enabled
+             * @description False keeps it, but sends nothing
+             * @default true
+             */
+            readonly enabled?: boolean;
+            /**
+             * Events
+             * @description Which events to send
+             */
+            readonly events: readonly ("job.created" | "job.phase" | "job.state" | "job.ended" | "plug.changed" | "robot.fault" | "robot.needs_person" | "twin.divergence")[];
+            /**
+             * Id
+             * @example 01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00
+             */
+            readonly id: string;
+            /**
+             * Secret
+             * @description Verifies the signature (Standard Webhooks 1.0)
+             * @example whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw
+             */
+            readonly secret: string;
+            /**
+             * Url
+             * @description HTTPS for public addresses. A target in the home network, by HTTP too, must be in webhooks.allowed_networks of the configuration. Redirects are not followed
+             * @example https://example.com/plugpilot
+             */
+            readonly url: string;
+        };
     };
-    responses: never;
+    responses: {
+        /** @description Bad Request */
+        readonly Problem400: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "malformed_json",
+                 *       "context": {},
+                 *       "detail": "The body is not JSON: Expecting value.",
+                 *       "remedy": "Send a JSON object with Content-Type: application/json.",
+                 *       "status": 400,
+                 *       "title": "The body is not JSON",
+                 *       "type": "urn:plugpilot:problem:malformed_json"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Not Found */
+        readonly Problem404: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "job_not_found",
+                 *       "context": {
+                 *         "job_id": "42"
+                 *       },
+                 *       "detail": "There is no job 42.",
+                 *       "remedy": "Look at the list of jobs for the right id.",
+                 *       "status": 404,
+                 *       "title": "There is no such job",
+                 *       "type": "urn:plugpilot:problem:job_not_found"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Request Timeout */
+        readonly Problem408: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "body_too_slow",
+                 *       "context": {},
+                 *       "detail": "POST /api/v1/jobs: the body did not arrive in time.",
+                 *       "remedy": "Check the network, then send the request again.",
+                 *       "status": 408,
+                 *       "title": "The body did not arrive in time",
+                 *       "type": "urn:plugpilot:problem:body_too_slow"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Conflict */
+        readonly Problem409: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "control_busy",
+                 *       "context": {
+                 *         "holder": "Charging job",
+                 *         "holder_kind": "job"
+                 *       },
+                 *       "detail": "Charging job has had control since 18:02:11 UTC.",
+                 *       "remedy": "Wait until they are done, or stop the robot first.",
+                 *       "status": 409,
+                 *       "title": "Somebody else is using the robot",
+                 *       "type": "urn:plugpilot:problem:control_busy"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Precondition Failed */
+        readonly Problem412: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "precondition_failed",
+                 *       "context": {},
+                 *       "detail": "If-Match names \"8c2f0a3be1d94f66\", which is not there now.",
+                 *       "remedy": "Read it again, look what is different, and repeat the change with the new ETag.",
+                 *       "status": 412,
+                 *       "title": "Somebody has changed this meanwhile",
+                 *       "type": "urn:plugpilot:problem:precondition_failed"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Request Entity Too Large */
+        readonly Problem413: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "body_too_large",
+                 *       "context": {},
+                 *       "detail": "POST /api/v1/jobs: the body is too large.",
+                 *       "remedy": "Send less; no request needs more than a few kilobytes.",
+                 *       "status": 413,
+                 *       "title": "The body is too large",
+                 *       "type": "urn:plugpilot:problem:body_too_large"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Unprocessable Entity */
+        readonly Problem422: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "invalid_request",
+                 *       "context": {
+                 *         "fields": [
+                 *           {
+                 *             "field": "type",
+                 *             "problem": "Input should be 'charge', 'plug_in' or 'unplug'"
+                 *           }
+                 *         ]
+                 *       },
+                 *       "detail": "type: Input should be 'charge', 'plug_in' or 'unplug'.",
+                 *       "remedy": "Correct the fields that are named and send the request again.",
+                 *       "status": 422,
+                 *       "title": "Some fields do not fit",
+                 *       "type": "urn:plugpilot:problem:invalid_request"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Precondition Required */
+        readonly Problem428: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "precondition_required",
+                 *       "context": {},
+                 *       "detail": "The header If-Match is missing.",
+                 *       "remedy": "Read it first, and send its ETag as If-Match.",
+                 *       "status": 428,
+                 *       "title": "Which version is to be changed?",
+                 *       "type": "urn:plugpilot:problem:precondition_required"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Internal Server Error */
+        readonly Problem500: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "internal",
+                 *       "context": {},
+                 *       "detail": "The request could not be carried out. The log says why.",
+                 *       "remedy": "Look at the robot, then try again. If it happens again, restart PlugPilot.",
+                 *       "status": 500,
+                 *       "title": "Something went wrong inside PlugPilot",
+                 *       "type": "urn:plugpilot:problem:internal"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Bad Gateway */
+        readonly Problem502: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "station_unsafe",
+                 *       "context": {},
+                 *       "detail": "OpenEVSE at http://192.168.1.20 did not answer within 2 s.",
+                 *       "remedy": "Check that the charging station has power and is connected to the network.",
+                 *       "status": 502,
+                 *       "title": "The charging station does not answer as it should",
+                 *       "type": "urn:plugpilot:problem:station_unsafe"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Service Unavailable */
+        readonly Problem503: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "storage",
+                 *       "context": {},
+                 *       "detail": "The disk is full.",
+                 *       "remedy": "Check that the disk has free space and is not write-protected.",
+                 *       "status": 503,
+                 *       "title": "PlugPilot cannot save its data",
+                 *       "type": "urn:plugpilot:problem:storage"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Any other problem */
+        readonly ProblemDefault: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "internal",
+                 *       "context": {},
+                 *       "detail": "The request could not be carried out. The log says why.",
+                 *       "remedy": "Look at the robot, then try again. If it happens again, restart PlugPilot.",
+                 *       "status": 500,
+                 *       "title": "Something went wrong inside PlugPilot",
+                 *       "type": "urn:plugpilot:problem:internal"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+    };
     parameters: never;
     requestBodies: never;
     headers: never;
@@ -1495,24 +2753,8 @@ export interface operations {
                     readonly "image/jpeg": unknown;
                 };
             };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly streamCamera: {
@@ -1533,24 +2775,391 @@ export interface operations {
                     readonly "multipart/x-mixed-replace": unknown;
                 };
             };
-            /** @description Service Unavailable */
-            readonly 503: {
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getChargePoint: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
                 headers: {
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "connector_locked": true,
+                     *       "contactor_closed": true,
+                     *       "cp_state": "C",
+                     *       "currents_a": [
+                     *         31.9,
+                     *         0,
+                     *         0
+                     *       ],
+                     *       "enabled": true,
+                     *       "energy_kwh": 812.3071,
+                     *       "limits_current": true,
+                     *       "max_current_a": 32,
+                     *       "power_w": 7340.2,
+                     *       "resting": null,
+                     *       "robot_state": "charging",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ChargePoint"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly enableChargePoint: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "enabled": true
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["Enablement"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
                 headers: {
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "connector_locked": true,
+                     *       "contactor_closed": true,
+                     *       "cp_state": "C",
+                     *       "currents_a": [
+                     *         31.9,
+                     *         0,
+                     *         0
+                     *       ],
+                     *       "enabled": true,
+                     *       "energy_kwh": 812.3071,
+                     *       "limits_current": true,
+                     *       "max_current_a": 32,
+                     *       "power_w": 7340.2,
+                     *       "resting": null,
+                     *       "robot_state": "charging",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ChargePoint"];
                 };
             };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 502: components["responses"]["Problem502"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly limitChargePoint: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "max_current_a": 16
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["CurrentLimit"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "connector_locked": true,
+                     *       "contactor_closed": true,
+                     *       "cp_state": "C",
+                     *       "currents_a": [
+                     *         31.9,
+                     *         0,
+                     *         0
+                     *       ],
+                     *       "enabled": true,
+                     *       "energy_kwh": 812.3071,
+                     *       "limits_current": true,
+                     *       "max_current_a": 32,
+                     *       "power_w": 7340.2,
+                     *       "resting": null,
+                     *       "robot_state": "charging",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ChargePoint"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 502: components["responses"]["Problem502"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly resumeChargePoint: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "connector_locked": true,
+                     *       "contactor_closed": true,
+                     *       "cp_state": "C",
+                     *       "currents_a": [
+                     *         31.9,
+                     *         0,
+                     *         0
+                     *       ],
+                     *       "enabled": true,
+                     *       "energy_kwh": 812.3071,
+                     *       "limits_current": true,
+                     *       "max_current_a": 32,
+                     *       "power_w": 7340.2,
+                     *       "resting": null,
+                     *       "robot_state": "charging",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ChargePoint"];
+                };
+            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "changeable": [
+                     *         "charge_point",
+                     *         "logging",
+                     *         "webhooks"
+                     *       ],
+                     *       "settings": {
+                     *         "logging": {
+                     *           "level": "info"
+                     *         },
+                     *         "server": {
+                     *           "host": "127.0.0.1",
+                     *           "port": 8000
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Configuration"];
+                };
+            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly patchConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "webhooks": {
+                 *         "allowed_networks": [
+                 *           "192.168.1.0/24"
+                 *         ],
+                 *         "timeout_s": 5
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": {
+                    readonly [key: string]: {
+                        readonly [key: string]: components["schemas"]["JsonValue"];
+                    };
+                };
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "changeable": [
+                     *         "charge_point",
+                     *         "logging",
+                     *         "webhooks"
+                     *       ],
+                     *       "settings": {
+                     *         "logging": {
+                     *           "level": "info"
+                     *         },
+                     *         "server": {
+                     *           "host": "127.0.0.1",
+                     *           "port": 8000
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Configuration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listEvents: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "complete": true,
+                     *       "items": [
+                     *         {
+                     *           "data": {
+                     *             "before": "free",
+                     *             "plug": "inserted"
+                     *           },
+                     *           "id": "01957a3d-02f6-7a10-9c1b-0d5c8d3b6a42",
+                     *           "timestamp": "2026-03-01T18:04:05.120Z",
+                     *           "type": "plug.changed"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["EventPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly streamEvents: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description Continue after this event, as browsers do by themselves */
+                readonly "last-event-id"?: string | null;
+            };
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Server-Sent Events: id, event (the type) and data (the event as JSON) */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "text/event-stream": string;
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getHealth: {
@@ -1568,24 +3177,48 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "components": {
+                     *         "camera": {
+                     *           "detail": "Works.",
+                     *           "status": "ok"
+                     *         },
+                     *         "robot": {
+                     *           "detail": "Works.",
+                     *           "status": "ok"
+                     *         },
+                     *         "station": {
+                     *           "detail": "Works.",
+                     *           "status": "ok"
+                     *         },
+                     *         "storage": {
+                     *           "detail": "Works.",
+                     *           "status": "ok"
+                     *         },
+                     *         "twin": {
+                     *           "detail": "Works.",
+                     *           "status": "ok"
+                     *         }
+                     *       },
+                     *       "status": "ok",
+                     *       "uptime_s": 86400.5,
+                     *       "version": "0.1.0"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Health"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly listJobs: {
         readonly parameters: {
             readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
                 readonly cursor?: string | null;
+                /** @description Entries of one page */
                 readonly limit?: number;
             };
             readonly header?: never;
@@ -1600,36 +3233,43 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "cancel_requested": false,
+                     *           "created_at": "2026-03-01T18:02:11.400Z",
+                     *           "error": null,
+                     *           "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *           "phase": "charging",
+                     *           "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *           "recording": null,
+                     *           "result": {
+                     *             "energy_wh": null,
+                     *             "insertion_depth_mm": 39.9,
+                     *             "lateral_error_mm": 0.21,
+                     *             "lateral_sigma_mm": 0.05,
+                     *             "limit_duration_s": 31.2,
+                     *             "max_force_n": 68.4,
+                     *             "plugged_after_s": 46.6
+                     *           },
+                     *           "state": "running",
+                     *           "target_energy_wh": 12000,
+                     *           "type": "charge",
+                     *           "updated_at": "2026-03-01T18:04:05.120Z",
+                     *           "vehicle_id": "zoe"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["JobPage"];
                 };
             };
-            /** @description Bad Request */
-            readonly 400: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            readonly 422: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly createJob: {
@@ -1656,63 +3296,42 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "cancel_requested": false,
+                     *       "created_at": "2026-03-01T18:02:11.400Z",
+                     *       "error": null,
+                     *       "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *       "phase": "charging",
+                     *       "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *       "recording": null,
+                     *       "result": {
+                     *         "energy_wh": null,
+                     *         "insertion_depth_mm": 39.9,
+                     *         "lateral_error_mm": 0.21,
+                     *         "lateral_sigma_mm": 0.05,
+                     *         "limit_duration_s": 31.2,
+                     *         "max_force_n": 68.4,
+                     *         "plugged_after_s": 46.6
+                     *       },
+                     *       "state": "running",
+                     *       "target_energy_wh": 12000,
+                     *       "type": "charge",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z",
+                     *       "vehicle_id": "zoe"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Bad Request */
-            readonly 400: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            readonly 422: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getJob: {
@@ -1733,27 +3352,38 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "cancel_requested": false,
+                     *       "created_at": "2026-03-01T18:02:11.400Z",
+                     *       "error": null,
+                     *       "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *       "phase": "charging",
+                     *       "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *       "recording": null,
+                     *       "result": {
+                     *         "energy_wh": null,
+                     *         "insertion_depth_mm": 39.9,
+                     *         "lateral_error_mm": 0.21,
+                     *         "lateral_sigma_mm": 0.05,
+                     *         "limit_duration_s": 31.2,
+                     *         "max_force_n": 68.4,
+                     *         "plugged_after_s": 46.6
+                     *       },
+                     *       "state": "running",
+                     *       "target_energy_wh": 12000,
+                     *       "type": "charge",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z",
+                     *       "vehicle_id": "zoe"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly cancelJob: {
@@ -1774,41 +3404,48 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "cancel_requested": false,
+                     *       "created_at": "2026-03-01T18:02:11.400Z",
+                     *       "error": null,
+                     *       "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *       "phase": "charging",
+                     *       "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *       "recording": null,
+                     *       "result": {
+                     *         "energy_wh": null,
+                     *         "insertion_depth_mm": 39.9,
+                     *         "lateral_error_mm": 0.21,
+                     *         "lateral_sigma_mm": 0.05,
+                     *         "limit_duration_s": 31.2,
+                     *         "max_force_n": 68.4,
+                     *         "plugged_after_s": 46.6
+                     *       },
+                     *       "state": "running",
+                     *       "target_energy_wh": 12000,
+                     *       "type": "charge",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z",
+                     *       "vehicle_id": "zoe"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly listJobEvents: {
         readonly parameters: {
-            readonly query?: never;
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                readonly limit?: number;
+            };
             readonly header?: never;
             readonly path: {
                 /** @description As in the job's Location */
@@ -1824,27 +3461,29 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "at": "2026-03-01T18:02:11.410Z",
+                     *           "data": {},
+                     *           "kind": "phase_started",
+                     *           "message": "Checking the robot and the charging station.",
+                     *           "phase": "preflight",
+                     *           "sequence": 1
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["JobEvents"];
                 };
             };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly finishJob: {
@@ -1865,36 +3504,92 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "cancel_requested": false,
+                     *       "created_at": "2026-03-01T18:02:11.400Z",
+                     *       "error": null,
+                     *       "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *       "phase": "charging",
+                     *       "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *       "recording": null,
+                     *       "result": {
+                     *         "energy_wh": null,
+                     *         "insertion_depth_mm": 39.9,
+                     *         "lateral_error_mm": 0.21,
+                     *         "lateral_sigma_mm": 0.05,
+                     *         "limit_duration_s": 31.2,
+                     *         "max_force_n": 68.4,
+                     *         "plugged_after_s": 46.6
+                     *       },
+                     *       "state": "running",
+                     *       "target_energy_wh": 12000,
+                     *       "type": "charge",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z",
+                     *       "vehicle_id": "zoe"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Not Found */
-            readonly 404: {
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly pauseJob: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the job's Location */
+                readonly job_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 202: {
                 headers: {
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "cancel_requested": false,
+                     *       "created_at": "2026-03-01T18:02:11.400Z",
+                     *       "error": null,
+                     *       "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *       "phase": "charging",
+                     *       "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *       "recording": null,
+                     *       "result": {
+                     *         "energy_wh": null,
+                     *         "insertion_depth_mm": 39.9,
+                     *         "lateral_error_mm": 0.21,
+                     *         "lateral_sigma_mm": 0.05,
+                     *         "limit_duration_s": 31.2,
+                     *         "max_force_n": 68.4,
+                     *         "plugged_after_s": 46.6
+                     *       },
+                     *       "state": "running",
+                     *       "target_energy_wh": 12000,
+                     *       "type": "charge",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z",
+                     *       "vehicle_id": "zoe"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getJobPlayback: {
@@ -1915,45 +3610,27 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "duration_s": 62.4,
+                     *       "marks": [
+                     *         {
+                     *           "at_s": 0,
+                     *           "kind": "phase",
+                     *           "text": "locating"
+                     *         }
+                     *       ]
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Playback"];
                 };
             };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Internal Server Error */
-            readonly 500: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 500: components["responses"]["Problem500"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getJobPlaybackFile: {
@@ -1984,42 +3661,12 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Internal Server Error */
-            readonly 500: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 500: components["responses"]["Problem500"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getJobRecording: {
@@ -2050,33 +3697,64 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description Not Found */
-            readonly 404: {
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly resumeJob: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the job's Location */
+                readonly job_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 202: {
                 headers: {
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "cancel_requested": false,
+                     *       "created_at": "2026-03-01T18:02:11.400Z",
+                     *       "error": null,
+                     *       "id": "01957a3c-7d50-7c44-8e0f-5b3c9d5a1f00",
+                     *       "phase": "charging",
+                     *       "phase_started_at": "2026-03-01T18:02:58.020Z",
+                     *       "recording": null,
+                     *       "result": {
+                     *         "energy_wh": null,
+                     *         "insertion_depth_mm": 39.9,
+                     *         "lateral_error_mm": 0.21,
+                     *         "lateral_sigma_mm": 0.05,
+                     *         "limit_duration_s": 31.2,
+                     *         "max_force_n": 68.4,
+                     *         "plugged_after_s": 46.6
+                     *       },
+                     *       "state": "running",
+                     *       "target_energy_wh": 12000,
+                     *       "type": "charge",
+                     *       "updated_at": "2026-03-01T18:04:05.120Z",
+                     *       "vehicle_id": "zoe"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Job"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getRobot: {
@@ -2094,18 +3772,49 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly disableRobot: {
@@ -2123,36 +3832,50 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly enableRobot: {
@@ -2170,36 +3893,50 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly emergencyStopRobot: {
@@ -2217,18 +3954,48 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly homeRobot: {
@@ -2246,36 +4013,50 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly jogRobot: {
@@ -2287,6 +4068,13 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
+                /**
+                 * @example {
+                 *       "axis": "x",
+                 *       "distance_mm": 5,
+                 *       "speed_mm_s": 10
+                 *     }
+                 */
                 readonly "application/json": components["schemas"]["JogStep"];
             };
         };
@@ -2297,45 +4085,54 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            readonly 422: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly confirmPlug: {
@@ -2347,6 +4144,11 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
+                /**
+                 * @example {
+                 *       "state": "free"
+                 *     }
+                 */
                 readonly "application/json": components["schemas"]["PlugConfirmation"];
             };
         };
@@ -2357,36 +4159,54 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            readonly 422: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getRobotReach: {
@@ -2407,33 +4227,9 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Reach"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly resetRobot: {
@@ -2451,36 +4247,50 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            readonly 503: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly stopRobot: {
@@ -2498,18 +4308,48 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "commanded": {
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "control": null,
+                     *       "driver": "Simulator",
+                     *       "enabled": true,
+                     *       "fault": null,
+                     *       "homed": true,
+                     *       "measured": {
+                     *         "force_n": 0,
+                     *         "joints": {
+                     *           "rho1_mm": 412.5,
+                     *           "rho2_mm": 688.25,
+                     *           "rho3_mm": 50
+                     *         },
+                     *         "tip": {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         }
+                     *       },
+                     *       "mode": "ready",
+                     *       "plug": "parked",
+                     *       "socket": null,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getStation: {
@@ -2527,23 +4367,40 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "connector_locked": null,
+                     *       "contactor_closed": true,
+                     *       "currents_a": [
+                     *         31.9,
+                     *         0,
+                     *         0
+                     *       ],
+                     *       "enabled": true,
+                     *       "held": false,
+                     *       "name": "OpenEVSE",
+                     *       "online": true,
+                     *       "pilot": "C",
+                     *       "power_w": 7340.2,
+                     *       "session_energy_wh": 4210.5,
+                     *       "updated_at": "2026-03-01T18:04:05.120Z"
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Station"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly listVehicles: {
         readonly parameters: {
-            readonly query?: never;
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
             readonly header?: never;
             readonly path?: never;
             readonly cookie?: never;
@@ -2556,18 +4413,33 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "id": "zoe",
+                     *           "label_payload": "PP2:zoe:4NG43RRFJW",
+                     *           "label_size_mm": 60,
+                     *           "name": "Renault Zoe",
+                     *           "socket": {
+                     *             "rotation_x_rad": 0,
+                     *             "rotation_y_rad": 0.02,
+                     *             "x_mm": 120,
+                     *             "y_mm": -4.5,
+                     *             "z_mm": 0
+                     *           }
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["VehicleList"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly getVehicle: {
@@ -2585,45 +4457,42 @@ export interface operations {
             /** @description Successful Response */
             readonly 200: {
                 headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "id": "zoe",
+                     *       "label_payload": "PP2:zoe:4NG43RRFJW",
+                     *       "label_size_mm": 60,
+                     *       "name": "Renault Zoe",
+                     *       "socket": {
+                     *         "rotation_x_rad": 0,
+                     *         "rotation_y_rad": 0.02,
+                     *         "x_mm": 120,
+                     *         "y_mm": -4.5,
+                     *         "z_mm": 0
+                     *       }
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Vehicle"];
                 };
             };
-            /** @description Not Found */
-            readonly 404: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            readonly 422: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly putVehicle: {
         readonly parameters: {
             readonly query?: never;
-            readonly header?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
             readonly path: {
                 /** @description Chosen by the owner; stands in the QR label */
                 readonly vehicle_id: string;
@@ -2632,6 +4501,19 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
+                /**
+                 * @example {
+                 *       "label_size_mm": 60,
+                 *       "name": "Renault Zoe",
+                 *       "socket": {
+                 *         "rotation_x_rad": 0,
+                 *         "rotation_y_rad": 0.02,
+                 *         "x_mm": 120,
+                 *         "y_mm": -4.5,
+                 *         "z_mm": 0
+                 *       }
+                 *     }
+                 */
                 readonly "application/json": components["schemas"]["VehicleSettings"];
             };
         };
@@ -2639,54 +4521,73 @@ export interface operations {
             /** @description Successful Response */
             readonly 200: {
                 headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "id": "zoe",
+                     *       "label_payload": "PP2:zoe:4NG43RRFJW",
+                     *       "label_size_mm": 60,
+                     *       "name": "Renault Zoe",
+                     *       "socket": {
+                     *         "rotation_x_rad": 0,
+                     *         "rotation_y_rad": 0.02,
+                     *         "x_mm": 120,
+                     *         "y_mm": -4.5,
+                     *         "z_mm": 0
+                     *       }
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Vehicle"];
                 };
             };
             /** @description Added */
             readonly 201: {
                 headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "id": "zoe",
+                     *       "label_payload": "PP2:zoe:4NG43RRFJW",
+                     *       "label_size_mm": 60,
+                     *       "name": "Renault Zoe",
+                     *       "socket": {
+                     *         "rotation_x_rad": 0,
+                     *         "rotation_y_rad": 0.02,
+                     *         "x_mm": 120,
+                     *         "y_mm": -4.5,
+                     *         "z_mm": 0
+                     *       }
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Vehicle"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Unprocessable Entity */
-            readonly 422: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Any other problem */
-            readonly default: {
-                headers: {
-                    readonly [name: string]: unknown;
-                };
-                content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
         };
     };
     readonly deleteVehicle: {
         readonly parameters: {
             readonly query?: never;
-            readonly header?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
             readonly path: {
                 /** @description Chosen by the owner; stands in the QR label */
                 readonly vehicle_id: string;
@@ -2702,41 +4603,434 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description Not Found */
-            readonly 404: {
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listWebhooks: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
                 headers: {
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "created_at": "2026-02-20T09:12:00Z",
+                     *           "description": "Messages to my phone",
+                     *           "disabled_reason": null,
+                     *           "enabled": true,
+                     *           "events": [
+                     *             "job.ended",
+                     *             "robot.needs_person"
+                     *           ],
+                     *           "id": "01957a2f-5c11-7d0e-b0d6-61a3f9c3e7aa",
+                     *           "url": "https://example.com/plugpilot"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["WebhookPage"];
                 };
             };
-            /** @description Conflict */
-            readonly 409: {
+            readonly 400: components["responses"]["Problem400"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly createWebhook: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "description": "Messages to my phone",
+                 *       "enabled": true,
+                 *       "events": [
+                 *         "job.ended",
+                 *         "robot.needs_person"
+                 *       ],
+                 *       "url": "https://example.com/plugpilot"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["WebhookSettings"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
                 headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    /** @description Its address */
+                    readonly Location?: string;
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "description": "Messages to my phone",
+                     *       "disabled_reason": null,
+                     *       "enabled": true,
+                     *       "events": [
+                     *         "job.ended",
+                     *         "robot.needs_person"
+                     *       ],
+                     *       "id": "01957a2f-5c11-7d0e-b0d6-61a3f9c3e7aa",
+                     *       "secret": "whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw",
+                     *       "url": "https://example.com/plugpilot"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["WebhookWithSecret"];
                 };
             };
-            /** @description Unprocessable Entity */
-            readonly 422: {
+            readonly 400: components["responses"]["Problem400"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getWebhook: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of webhooks */
+                readonly webhook_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
                 headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "description": "Messages to my phone",
+                     *       "disabled_reason": null,
+                     *       "enabled": true,
+                     *       "events": [
+                     *         "job.ended",
+                     *         "robot.needs_person"
+                     *       ],
+                     *       "id": "01957a2f-5c11-7d0e-b0d6-61a3f9c3e7aa",
+                     *       "url": "https://example.com/plugpilot"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Webhook"];
                 };
             };
-            /** @description Any other problem */
-            readonly default: {
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly putWebhook: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
+            readonly path: {
+                /** @description As in the list of webhooks */
+                readonly webhook_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "description": "Messages to my phone",
+                 *       "enabled": true,
+                 *       "events": [
+                 *         "job.ended",
+                 *         "robot.needs_person"
+                 *       ],
+                 *       "url": "https://example.com/plugpilot"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["WebhookSettings"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "description": "Messages to my phone",
+                     *       "disabled_reason": null,
+                     *       "enabled": true,
+                     *       "events": [
+                     *         "job.ended",
+                     *         "robot.needs_person"
+                     *       ],
+                     *       "id": "01957a2f-5c11-7d0e-b0d6-61a3f9c3e7aa",
+                     *       "url": "https://example.com/plugpilot"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Webhook"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly deleteWebhook: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
+            readonly path: {
+                /** @description As in the list of webhooks */
+                readonly webhook_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listWebhookDeliveries: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of webhooks */
+                readonly webhook_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
                 headers: {
                     readonly [name: string]: unknown;
                 };
                 content: {
-                    readonly "application/problem+json": components["schemas"]["Problem"];
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "attempts": [
+                     *             {
+                     *               "at": "2026-03-01T18:04:05.120Z",
+                     *               "duration_s": 0.084,
+                     *               "error": "It answered 503.",
+                     *               "status": 503
+                     *             }
+                     *           ],
+                     *           "created_at": "2026-03-01T18:04:05.120Z",
+                     *           "event_id": "01957a3d-02f6-7a10-9c1b-0d5c8d3b6a42",
+                     *           "event_type": "job.ended",
+                     *           "id": "01957a3d-0300-7b22-8f63-1d0c7a5e9b01",
+                     *           "next_attempt_at": "2026-03-01T18:04:10.220Z",
+                     *           "state": "waiting"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["DeliveryPage"];
                 };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly pingWebhook: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of webhooks */
+                readonly webhook_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 202: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "attempts": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "duration_s": 0.084,
+                     *           "error": "It answered 503.",
+                     *           "status": 503
+                     *         }
+                     *       ],
+                     *       "created_at": "2026-03-01T18:04:05.120Z",
+                     *       "event_id": "01957a3d-02f6-7a10-9c1b-0d5c8d3b6a42",
+                     *       "event_type": "job.ended",
+                     *       "id": "01957a3d-0300-7b22-8f63-1d0c7a5e9b01",
+                     *       "next_attempt_at": "2026-03-01T18:04:10.220Z",
+                     *       "state": "waiting"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Delivery"];
+                };
+            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly rotateWebhookSecret: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of webhooks */
+                readonly webhook_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "description": "Messages to my phone",
+                     *       "disabled_reason": null,
+                     *       "enabled": true,
+                     *       "events": [
+                     *         "job.ended",
+                     *         "robot.needs_person"
+                     *       ],
+                     *       "id": "01957a2f-5c11-7d0e-b0d6-61a3f9c3e7aa",
+                     *       "secret": "whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw",
+                     *       "url": "https://example.com/plugpilot"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["WebhookWithSecret"];
+                };
+            };
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly receiveEvent: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "data": {
+                 *         "before": "free",
+                 *         "plug": "inserted"
+                 *       },
+                 *       "id": "01957a3d-02f6-7a10-9c1b-0d5c8d3b6a42",
+                 *       "timestamp": "2026-03-01T18:04:05.120Z",
+                 *       "type": "plug.changed"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["Event"];
+            };
+        };
+        readonly responses: {
+            /** @description The event has arrived */
+            readonly "2XX": {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };

@@ -62,6 +62,8 @@ void Board::latch(Fault fault, uint8_t axes) {
       break;
     case Fault::STALL:
     case Fault::FOLLOWING_ERROR:
+      // the encoder may be dead, and the slide has gone on unseen
+      if (fault != Fault::STALL || !slide_.pushed_tight()) homed_ = false;
       interpolator_.brake_and_hold_slide(encoder_.counts());
       begin_settling();
       slide_.reset();

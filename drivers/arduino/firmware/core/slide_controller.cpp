@@ -10,6 +10,7 @@ constexpr int32_t kMostQ8 = kPwmMax * kOneQ8;
 constexpr int32_t kLargestQ8 = 32767;
 
 constexpr int32_t kLetGoShare = 4;  // of the integral, for each count
+constexpr int32_t kTightShare = 4;  // of the cap is left at most when the slide pushes itself tight
 
 int32_t clamped(int32_t value, int32_t limit) {
   if (value > limit) return limit;
@@ -44,7 +45,7 @@ void SlideController::reset() {
   integral_q16_ = force_q8_ = last_rate_ = 0;
   stuck_ms_ = 0;
   pwm_ = 0;
-  limited_ = holding_ = false;
+  limited_ = holding_ = tight_ = false;
   stood_ms_ = 0;
 }
 
@@ -96,6 +97,10 @@ void SlideController::integrate(int32_t error_q8, int32_t wanted_q8) {
 }
 
 void SlideController::watch_for_stall(int32_t counts) {
+  if (counts != last_counts_) {
+    const int32_t force_q8 = force_q8_ < 0 ? -force_q8_ : force_q8_;
+    tight_ = force_q8 >= cap_q8_ - cap_q8_ / kTightShare;
+  }
   if (counts != last_counts_ || !limited_) {
     stuck_ms_ = 0;
   } else if (stuck_ms_ < UINT16_MAX) {

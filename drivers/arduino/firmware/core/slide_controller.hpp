@@ -27,6 +27,11 @@ class SlideController {
   // Pushing at the cap for so long without a count.
   bool stalled() const { return stuck_ms_ >= numbers_.stall_ms; }
 
+  // Whether a stall is a place where the slide was seen to push itself tight. Whatever stops it gives
+  // way a little first, so its last counts come at nearly the whole force. An encoder that dies, or
+  // a screw that slips, falls silent at the force of the motion before.
+  bool pushed_tight() const { return tight_; }
+
   // The cap was in force at the last update.
   bool force_limited() const { return limited_; }
 
@@ -51,6 +56,7 @@ class SlideController {
   uint16_t stuck_ms_ = 0;
   int16_t pwm_ = 0;
   bool limited_ = false;
+  bool tight_ = false;    // the newest count came at nearly the whole force
   bool holding_ = false;  // it had arrived
   uint8_t stood_ms_ = 0;
 };

@@ -162,8 +162,58 @@ TEST(a_jammed_slide_stalls_at_its_force_limit) {
   }
   CHECK(largest >= 295);
   latched(s, Fault::STALL, true);
-  CHECK(homed(s));
   CHECK_EQUAL(s.report().commanded[2], s.report().measured_rho3);
+}
+
+// The slide on its way at 400 counts/s, with a low force limit.
+void push_slowly(Stand& s) {
+  s.home();
+  s.board.limit_force(300);
+  for (int i = 0; i < 14; ++i) s.ramp(0, 0, 400);
+  s.ramp(0, 0, 0);
+  s.run(60);
+}
+
+TEST(a_slide_that_pushes_itself_tight_still_knows_its_place) {
+  Stand s;
+  push_slowly(s);
+  s.wall = s.place[kSlide] + 10;
+  CHECK(s.run_until([&] { return s.in(State::FAULT); }, 2000) >= 0);
+  latched(s, Fault::STALL, true);
+  CHECK(homed(s));
+}
+
+TEST(a_stall_that_came_without_a_warning_unhomes) {
+  Stand rigid;
+  push_slowly(rigid);
+  rigid.jammed = true;
+  rigid.run_until([&] { return rigid.in(State::FAULT); }, 2000);
+  latched(rigid, Fault::STALL, true);
+  CHECK(!homed(rigid));
+}
+
+TEST(a_dead_encoder_unhomes) {
+  for (const double rate : {400.0, -400.0, 1000.0}) {
+    Stand s;
+    s.home();
+    for (int i = 0; i < 5; ++i) s.ramp(0, 0, 400);
+    for (int i = 0; i < 9; ++i) s.ramp(0, 0, rate);
+    s.ramp(0, 0, 0);
+    s.run(160);
+    s.encoder_dead = true;
+    const double before = s.place[kSlide];
+    CHECK(s.run_until([&] { return s.in(State::FAULT); }, 2000) >= 0);
+    CHECK(std::fabs(s.place[kSlide] - before) > 20);  // it has gone on unseen
+    CHECK(!homed(s));
+    s.encoder_dead = false;
+    CHECK(s.run_until([&] { return !s.board.moving(); }, 2000) >= 0);
+    CHECK_EQUAL(s.board.clear_fault(), Refusal::NONE);
+    CHECK_EQUAL(s.ramp(0, 0, 0), Refusal::NOT_HOMED);
+    CHECK_EQUAL(s.board.home(), Refusal::NONE);
+    CHECK(s.run_until([&] { return !s.in(State::HOMING); }) >= 0);
+    CHECK(homed(s));
+    CHECK(std::fabs(s.place[kSlide] - s.report().measured_rho3) <= 20);
+  }
 }
 
 TEST(a_slide_that_is_dragged_away_is_a_following_error) {
@@ -172,6 +222,7 @@ TEST(a_slide_that_is_dragged_away_is_a_following_error) {
   s.place[2] += 320;
   s.run(2);
   latched(s, Fault::FOLLOWING_ERROR, true);
+  CHECK(!homed(s));
 }
 
 TEST(the_slide_follows_closely_and_settles) {

@@ -56,6 +56,8 @@ class Stand {
   // True places of the axes; the switches open below -50.
   double place[kAxes] = {4000, 4000, 100};
   bool jammed = false;
+  bool encoder_dead = false;
+  double wall = 1e9;  // beyond it the slide presses a spring together
   uint8_t cut = 0;    // switches whose wires are cut
   uint8_t stuck = 0;  // switches that never open
   bool host_alive = true;
@@ -68,7 +70,9 @@ class Stand {
     move_slide();
     inputs.switch_levels = levels();
     inputs.tripped = board.interpolator().switches().take_tripped();
-    inputs.encoder_raw = static_cast<int32_t>(std::floor(place[kSlide] - kStart));
+    if (!encoder_dead) {
+      inputs.encoder_raw = static_cast<int32_t>(std::floor(place[kSlide] - kStart));
+    }
     if (host_alive) board.hear_host();
     outputs = board.every_millisecond(inputs);
     board.interpolator().switches().watch(outputs.watched, outputs.released_levels);
@@ -134,6 +138,7 @@ class Stand {
   static constexpr double kFullSpeed = 2.0;   // counts per ms at PWM 255
   static constexpr double kFriction = 6;      // PWM
   static constexpr double kTimeConstantMs = 15;
+  static constexpr double kSpring = 3;        // PWM per count
 
   uint8_t levels() const {
     uint8_t pressed = cut | stuck;
@@ -151,6 +156,8 @@ class Stand {
 
   void move_slide() {
     double drive = outputs.drives_on && !jammed ? outputs.pwm : 0;
+    const double spring = std::min(std::max(place[kSlide] - wall, 0.0) * kSpring, std::max(drive, 0.0));
+    drive -= spring;  // the screw locks itself: nothing pushes it back
     if (std::fabs(drive) < kFriction && std::fabs(speed_) < 0.05) drive = speed_ = 0;
     speed_ += (drive / 255 * kFullSpeed - speed_) / kTimeConstantMs;
     if (jammed) speed_ = 0;

@@ -1,0 +1,5 @@
+"""Settings that are changed while PlugPilot runs."""
+
+from server.adjusting.service import RunningSettings
+
+__all__ = ["RunningSettings"]

@@ -1,0 +1,1 @@
+"""Webhooks: tell other programs what happens, signed, again and again until they have heard it."""

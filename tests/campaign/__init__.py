@@ -1,0 +1,1 @@
+"""Campaigns: many random situations in virtual time, with figures at the end."""

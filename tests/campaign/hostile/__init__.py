@@ -1,0 +1,1 @@
+"""An energy manager, or a station, that does the worst thing at the worst moment."""
