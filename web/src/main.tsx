@@ -9,6 +9,7 @@ import "./style/steps.css";
 import "./style/views.css";
 import "./style/picture.css";
 import "./style/history.css";
+import "./style/plan.css";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("index.html has no element #app");
