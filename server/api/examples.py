@@ -144,6 +144,10 @@ MODELS: dict[str, Json] = {
         "marks": [{"at_s": 0.0, "kind": "phase", "text": "locating"}],
     },
     "PlugConfirmation": {"state": "free"},
+    "Reach": {
+        axis: {"back_mm": 112.5, "on_mm": 207.0}
+        for axis in ("x", "y", "insertion", "rho1", "rho2", "rho3")
+    },
     "Robot": {
         "mode": "ready",
         "driver": "Simulator",

@@ -6,9 +6,9 @@ from datetime import UTC, datetime, timedelta
 from typing import Literal
 
 from server.control.model import PlugState, RobotMode
-from server.jobs.model import JobPhase, JobState, JobType
+from server.jobs.model import JobPhase, JobState, JobType, PersonChoice
 from server.schema.divergence import DivergenceReport, TwinReport
-from server.schema.jobs import Job, JobResult
+from server.schema.jobs import Job, JobResult, NeedsPerson
 from server.schema.live import Live, Service
 from server.schema.problem import Problem
 from server.schema.robot import (
@@ -135,6 +135,30 @@ def live(
     )
 
 
+
+
+def _paused(running: Job) -> Job:
+    return running.model_copy(update={"paused": True})
+
+
+def _asking(running: Job) -> Job:
+    needs = NeedsPerson(
+        code="insertion_jammed",
+        sentence="The plug met 78 N when it was 12 mm deep, three times. Look whether something is "
+        "in the socket.",
+        choices=[PersonChoice.RESUME, PersonChoice.CANCEL],
+    )
+    return running.model_copy(update={"needs_person": needs})
+
+
+def _planned(queued: Job) -> Job:
+    begin = NOW + timedelta(hours=4)
+    return queued.model_copy(
+        update={"not_before": begin, "unplug_by": begin + timedelta(hours=9)}
+    )
+
+
+_MOVING_AT_REST = robot(RobotMode.READY, PlugState.FREE)
 _MOVING = robot(RobotMode.MOVING, PlugState.FREE)
 _IN = robot(RobotMode.READY, PlugState.INSERTED)
 
@@ -176,6 +200,9 @@ SCENES: dict[str, Live] = {
         robot(RobotMode.MOVING, PlugState.INSERTED),
         job(JobPhase.WITHDRAWING, JobType.UNPLUG),
     ),
+    "paused": live(_MOVING_AT_REST, _paused(job(JobPhase.ALIGNING))),
+    "needs_person": live(robot(plug=PlugState.FREE), _asking(job(JobPhase.INSERTING))),
+    "planned": live(robot(), _planned(job(JobPhase.PREFLIGHT, state=JobState.QUEUED))),
     "done": live(
         robot(),
         job(JobPhase.PARKING, state=JobState.SUCCEEDED, result=JobResult(energy_wh=21_480)),

@@ -69,7 +69,7 @@ def test_dialogs_and_details_are_accessible(page: Page, address: str, stage: Sta
     page.locator(".history summary").click()
     page.get_by_role("button", name="Watch again").wait_for()
     page.get_by_role("button", name="Emergency stop").wait_for()
-    page.get_by_role("button", name="Charge").click()
+    page.get_by_role("button", name="Charge", exact=True).click()
     page.get_by_role("dialog").wait_for()
     assert violations(page) == []
 
@@ -135,7 +135,7 @@ def test_stop_is_large_and_alone(page: Page, address: str, stage: Stage) -> None
 
 def test_two_taps_start_a_charge(page: Page, address: str, stage: Stage) -> None:
     _open(page, address, stage, "ready")
-    page.get_by_role("button", name="Charge").tap()
+    page.get_by_role("button", name="Charge", exact=True).tap()
     with page.expect_request(lambda request: request.url.endswith("/jobs")) as started:
         page.get_by_role("button", name="Renault Zoe").tap()
     assert started.value.post_data_json == {"type": "charge", "vehicle_id": "zoe"}

@@ -230,3 +230,41 @@ suite("the sentence", () => {
     expect(of("parking")).toBe("Going back to its place");
   });
 });
+
+suite("a job that waits", () => {
+  const kinds = ({ action, others }: Description): string[] =>
+    [action, ...others].flatMap((each) => (each === null ? [] : [each.kind]));
+
+  test("can be paused while the plug is not on its way out", () => {
+    for (const phase of PHASES) {
+      const said = describe(live({ job: job({ phase }) }));
+      const pausable = ["locating", "aligning", "inserting", "plugged", "charging"].includes(phase);
+      expect([phase, kinds(said).includes("pause")]).toEqual([phase, pausable]);
+    }
+  });
+
+  test("is called paused, goes on or is given up, and nothing moves", () => {
+    const said = describe(live({ job: job({ phase: "aligning", paused: true }) }));
+    expect(said.headline).toBe("Paused");
+    expect(kinds(said)).toEqual(["resume", "cancel"]);
+    expect(said.stoppable).toBe(false);
+  });
+
+  test("for a person says why, and offers what the robot allows", () => {
+    const needs = { code: "x", sentence: "Look whether something is in the socket." };
+    const asks = (choices: ("resume" | "cancel")[]): Description =>
+      describe(live({ job: job({ needs_person: { ...needs, choices } }) }));
+    expect(asks(["resume", "cancel"]).detail).toBe(needs.sentence);
+    expect(kinds(asks(["resume", "cancel"]))).toEqual(["resume", "cancel"]);
+    expect(kinds(asks(["cancel"]))).toEqual(["cancel"]);
+  });
+
+  test("for its time says when, by the robot's clock", () => {
+    const queued = { state: "queued", phase: "preflight", not_before: at(3600) } as const;
+    const said = describe(live({ job: job(queued) }));
+    expect(said.headline).toBe("The charge is planned");
+    expect(kinds(said)).toEqual(["cancel"]);
+    const due = describe(live({ robot: robot({ updated_at: at(3601) }), job: job(queued) }));
+    expect(due.headline).toBe("Getting ready");
+  });
+});

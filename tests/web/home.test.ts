@@ -8,7 +8,7 @@ import { dismissedJobId } from "@/robot/view";
 import type { Live } from "@/api/wire";
 import { FakeRest } from "./rest";
 import { FakeSocket } from "./socket";
-import { job, live, robot, snapshot, station } from "./states";
+import { job, live, robot, snapshot, START, station } from "./states";
 
 const ZOE = { id: "zoe", name: "Renault Zoe" };
 const ID3 = { id: "id3", name: "ID.3" };
@@ -42,6 +42,41 @@ const press = async (name: string): Promise<void> => {
   fireEvent.click(button(name));
 };
 const headline = (): string => screen.getByRole("heading", { level: 1 }).textContent;
+
+describe("planning", () => {
+  test("asks for three things and sends dates by the robot's clock", async () => {
+    show(live());
+    await press("Plan a charge");
+    const dialog = await screen.findByRole("dialog", { name: "Plan a charge" });
+    const box = within(dialog);
+    fireEvent.click(box.getByLabelText("Only"));
+    fireEvent.input(await box.findByLabelText("Energy, kWh"), { target: { value: "15" } });
+    fireEvent.click(box.getByRole("button", { name: "Plan it" }));
+    await waitFor(() => expect(rest.commands).toEqual(["POST /jobs"]));
+    const ready = new Date(START);
+    ready.setHours(7, 0, 0, 0);
+    if (ready <= new Date(START)) ready.setDate(ready.getDate() + 1);
+    expect(rest.requests.at(-1)?.body).toEqual({
+      type: "charge",
+      vehicle_id: "zoe",
+      not_before: null,
+      unplug_by: ready.toISOString(),
+      target_energy_wh: 15_000,
+    });
+  });
+});
+
+describe("a job that waits", () => {
+  test("goes on or is given up with one press", async () => {
+    rest.answer("POST /jobs/job-1/resume", [202, job()]).answer("POST /jobs/job-1/pause", [202, job()]);
+    show(live({ job: job({ phase: "charging" }) }));
+    await press("Pause");
+    await waitFor(() => expect(rest.commands).toEqual(["POST /jobs/job-1/pause"]));
+    show(live({ job: job({ phase: "charging", paused: true }) }));
+    await press("Go on");
+    await waitFor(() => expect(rest.commands.at(-1)).toBe("POST /jobs/job-1/resume"));
+  });
+});
 
 describe("charging", () => {
   test("takes one press with one car", async () => {

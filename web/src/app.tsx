@@ -3,6 +3,7 @@ import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { History } from "@/parts/history";
+import { PlanDialog } from "@/parts/plan";
 import { Progress } from "@/parts/progress";
 import { ReplayDialog } from "@/parts/replay";
 import { RobotCard } from "@/parts/robot-card";
@@ -33,6 +34,7 @@ export function App() {
       <StopBar />
       <QuestionDialog />
       <ChoiceDialog />
+      <PlanDialog />
       <ReplayDialog />
     </>
   );

@@ -10,6 +10,7 @@ import "./style/views.css";
 import "./style/picture.css";
 import "./style/history.css";
 import "./guidance/guidance.css";
+import "./style/plan.css";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("index.html has no element #app");

@@ -98,6 +98,14 @@ export async function startJob(job: JobRequest): Promise<Job> {
 export const cancelJob = (id: string): Promise<Job> =>
   call(`/jobs/${encodeURIComponent(id)}/cancel`, { method: "POST" });
 
+/** Brings a job to rest until it is resumed. */
+export const pauseJob = (id: string): Promise<Job> =>
+  call(`/jobs/${encodeURIComponent(id)}/pause`, { method: "POST" });
+
+/** Lets a paused job, or one that has asked a person, go on. */
+export const resumeJob = (id: string): Promise<Job> =>
+  call(`/jobs/${encodeURIComponent(id)}/resume`, { method: "POST" });
+
 /** Ends charging now and unplugs. */
 export const finishJob = (id: string): Promise<Job> =>
   call(`/jobs/${encodeURIComponent(id)}/finish`, { method: "POST" });

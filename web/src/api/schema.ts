@@ -4564,6 +4564,34 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "insertion": {
+                     *         "back_mm": 112.5,
+                     *         "on_mm": 207
+                     *       },
+                     *       "rho1": {
+                     *         "back_mm": 112.5,
+                     *         "on_mm": 207
+                     *       },
+                     *       "rho2": {
+                     *         "back_mm": 112.5,
+                     *         "on_mm": 207
+                     *       },
+                     *       "rho3": {
+                     *         "back_mm": 112.5,
+                     *         "on_mm": 207
+                     *       },
+                     *       "x": {
+                     *         "back_mm": 112.5,
+                     *         "on_mm": 207
+                     *       },
+                     *       "y": {
+                     *         "back_mm": 112.5,
+                     *         "on_mm": 207
+                     *       }
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Reach"];
                 };
             };

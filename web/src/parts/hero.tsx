@@ -7,7 +7,7 @@ import { Picture } from "./picture";
 
 /** The state of the robot in a picture and a sentence, and the one thing to do about it. */
 export function Hero() {
-  const { headline, detail, remedy, tone, scene, action } = description.value;
+  const { headline, detail, remedy, tone, scene, action, others } = description.value;
   return (
     <section class="hero" data-tone={tone} aria-busy={pending.value}>
       <Picture arm={scene.arm} mark={scene.mark} tone={tone} />
@@ -20,7 +20,10 @@ export function Hero() {
           </p>
         )}
       </div>
-      <div class="hero-action">{action !== null && <ActionButtons action={action} />}</div>
+      <div class="hero-action">
+        {action !== null && <ActionButtons action={action} />}
+        <OtherButtons others={others} />
+      </div>
       <TroubleNote />
     </section>
   );
@@ -57,6 +60,24 @@ function ActionButtons({ action }: { action: Action }) {
           {words.action.dismiss}
         </button>
       )}
+    </>
+  );
+}
+
+function OtherButtons({ others }: { others: readonly Action[] }) {
+  return (
+    <>
+      {others.map(({ kind, label }) => (
+        <button
+          key={kind}
+          type="button"
+          class="button text"
+          disabled={pending.value || !canAct.value}
+          onClick={() => press(kind)}
+        >
+          {label}
+        </button>
+      ))}
     </>
   );
 }

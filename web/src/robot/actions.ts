@@ -6,11 +6,13 @@ import {
   confirmPlugIsOut,
   finishJob,
   listVehicles,
+  pauseJob,
   Refusal,
+  resumeJob,
   startJob,
 } from "@/api/client";
 import type { RobotCommand, Trouble } from "@/api/client";
-import type { Job, StopKind, Vehicle } from "@/api/wire";
+import type { Job, JobRequest, StopKind, Vehicle } from "@/api/wire";
 import { stop, store } from "@/live/page";
 import { words } from "@/words";
 import type { ActionKind } from "./describe";
@@ -25,6 +27,9 @@ export const trouble = signal<Trouble | null>(null);
 export const question = signal<"reset" | "plug" | null>(null);
 /** The cars to choose from, while the choice is open. */
 export const choice = signal<readonly Vehicle[] | null>(null);
+
+/** The cars to plan for, while the plan is open. */
+export const planning = signal<readonly Vehicle[] | null>(null);
 
 async function attempt(work: () => Promise<unknown>): Promise<void> {
   if (pending.value) return;
@@ -59,6 +64,18 @@ async function charge(): Promise<void> {
   }
 }
 
+async function openPlan(): Promise<void> {
+  const { items } = await listVehicles();
+  if (items.length === 0) trouble.value = words.noCar;
+  else planning.value = items;
+}
+
+/** Starts a planned charge. */
+export function plan(job: JobRequest): void {
+  planning.value = null;
+  void attempt(() => startJob(job));
+}
+
 async function withRunningJob(work: (id: string) => Promise<Job>): Promise<void> {
   const job = store.live.value?.job ?? null;
   if (isActive(job)) await work(job.id);
@@ -75,6 +92,15 @@ export function press(kind: ActionKind): void {
       break;
     case "cancel":
       void attempt(() => withRunningJob(cancelJob));
+      break;
+    case "pause":
+      void attempt(() => withRunningJob(pauseJob));
+      break;
+    case "resume":
+      void attempt(() => withRunningJob(resumeJob));
+      break;
+    case "plan":
+      void attempt(openPlan);
       break;
     case "unplug":
       void attempt(() => startJob({ type: "unplug", vehicle_id: lastVehicleId() }));

@@ -1,13 +1,22 @@
 /** The state of the robot in a sentence, a picture and one thing to do. */
-import type { Job, Live, Robot } from "@/api/wire";
-import { formatEnergy } from "@/format";
+import type { Job, JobPhase, Live, Robot } from "@/api/wire";
+import { formatDate, formatEnergy } from "@/format";
 import { words } from "@/words";
-import { isActive, isMovingPhase, isReturning } from "./job";
+import { isActive, isMovingPhase, isReturning, isUnderWay } from "./job";
 
 export type Tone = "calm" | "busy" | "good" | "ask" | "problem";
 
 /** What the big button does. */
-export type ActionKind = "charge" | "finish" | "unplug" | "cancel" | "reset" | "confirm_plug";
+export type ActionKind =
+  | "charge"
+  | "plan"
+  | "finish"
+  | "unplug"
+  | "cancel"
+  | "pause"
+  | "resume"
+  | "reset"
+  | "confirm_plug";
 
 export interface Action {
   readonly kind: ActionKind;
@@ -28,6 +37,8 @@ export interface Description {
   readonly tone: Tone;
   readonly scene: Scene;
   readonly action: Action | null;
+  /** What else can be done, shown smaller. */
+  readonly others: readonly Action[];
   /** The stop button is shown: something moves or is about to. */
   readonly stoppable: boolean;
 }
@@ -42,6 +53,7 @@ const NEWS_MS = 30 * 60 * 1000;
 
 const say = words.state;
 const label = words.action;
+const PAUSE: Action = { kind: "pause", label: label.pause };
 
 /**
  * Describes every live state.
@@ -52,7 +64,7 @@ export function describe(live: Live, dismissedJobId: string | null = null): Desc
   const { robot, job } = live;
   const running = isActive(job) ? job : null;
   const stoppable = isStoppable(robot, running);
-  const base = { remedy: "", stoppable };
+  const base: Base = { remedy: "", stoppable, others: [] };
   return (
     describeHalt(robot, base) ??
     (running !== null ? describeJob(robot, running, base) : null) ??
@@ -63,7 +75,7 @@ export function describe(live: Live, dismissedJobId: string | null = null): Desc
   );
 }
 
-type Base = Pick<Description, "remedy" | "stoppable">;
+type Base = Pick<Description, "remedy" | "stoppable" | "others">;
 
 /** True while anything moves or may begin to move without another press. */
 function isStoppable(robot: Robot, running: Job | null): boolean {
@@ -80,7 +92,7 @@ function isStoppable(robot: Robot, running: Job | null): boolean {
     case "off":
     case "not_homed":
     case "ready":
-      return running !== null && (isMovingPhase(running.phase) || running.cancel_requested);
+      return running !== null && isUnderWay(running) && (isMovingPhase(running.phase) || running.cancel_requested);
   }
 }
 
@@ -133,9 +145,15 @@ function describeHalt(robot: Robot, base: Base): Description | null {
 function describeJob(robot: Robot, job: Job, base: Base): Description {
   if (job.state === "queued") {
     const action = job.cancel_requested ? null : cancel();
-    const arm = armOf(robot);
-    return { ...base, ...say.queued, tone: "busy", scene: { arm, mark: "sync" }, action };
+    const scene: Scene = { arm: armOf(robot), mark: "sync" };
+    const start = job.not_before ?? null;
+    if (start === null || Date.parse(start) <= Date.parse(robot.updated_at)) {
+      return { ...base, ...say.queued, tone: "busy", scene, action };
+    }
+    const planned = say.planned(formatDate(start), job.unplug_by == null ? null : formatDate(job.unplug_by));
+    return { ...base, ...planned, tone: "calm", scene: { ...scene, mark: "none" }, action };
   }
+  if (!isUnderWay(job)) return describeWaiting(robot, job, base);
   const scene = sceneOf(job, robot);
   if (job.cancel_requested && !isReturning(job.phase)) {
     const sentence = isMovingPhase(job.phase) ? say.cancelling : say.ending;
@@ -144,7 +162,36 @@ function describeJob(robot: Robot, job: Job, base: Base): Description {
   const findsPosition = job.phase === "preflight" && robot.mode === "homing";
   const { headline, detail } = findsPosition ? say.homing : words.phases[job.phase];
   const tone = job.phase === "charging" || job.phase === "plugged" ? "good" : "busy";
-  return { ...base, headline, detail, tone, scene, action: actionOf(job) };
+  const others = isPausable(job.phase) ? [PAUSE] : [];
+  return { ...base, headline, detail, tone, scene, action: actionOf(job), others };
+}
+
+/** Paused, or waiting for a person to decide. */
+function describeWaiting(robot: Robot, job: Job, base: Base): Description {
+  const arm = armOf(robot);
+  const giveUp: Action = { kind: "cancel", label: label.giveUp };
+  const goOn: Action = { kind: "resume", label: label.goOn };
+  const needs = job.needs_person ?? null;
+  if (needs === null) {
+    const scene: Scene = { arm, mark: "none" };
+    return { ...base, ...say.paused, tone: "ask", scene, action: goOn, others: [giveUp] };
+  }
+  const choices = needs.choices.map((choice) => (choice === "resume" ? goOn : giveUp));
+  const [action = null, ...others] = choices;
+  return {
+    ...base,
+    headline: say.needsPerson,
+    detail: needs.sentence,
+    tone: "ask",
+    scene: { arm, mark: "question" },
+    action,
+    others,
+  };
+}
+
+/** The plug is not on its way out: a pause leaves it where it is safe. */
+function isPausable(phase: JobPhase): boolean {
+  return phase !== "preflight" && !isReturning(phase);
 }
 
 function actionOf(job: Job): Action | null {
@@ -217,7 +264,8 @@ function describeRest({ robot, job, station }: Live, base: Base): Description {
   }
   const scene: Scene = { arm: armOf(robot), mark: "none" };
   const action: Action = { kind: "charge", label: label.charge };
-  return { ...base, ...restSentence(robot, job), tone: "calm", scene, action };
+  const others: Action[] = [{ kind: "plan", label: label.plan }];
+  return { ...base, ...restSentence(robot, job), tone: "calm", scene, action, others };
 }
 
 function restSentence(robot: Robot, job: Job | null): Sentence {

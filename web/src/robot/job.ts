@@ -7,6 +7,11 @@ export function isActive(job: Job | null): job is ActiveJob {
   return job !== null && (job.state === "queued" || job.state === "running");
 }
 
+/** It neither rests nor waits for a person. */
+export function isUnderWay(job: Job): boolean {
+  return job.paused !== true && job.needs_person == null;
+}
+
 /** In all other phases the robot stands still with the plug in the car. */
 export function isMovingPhase(phase: JobPhase): boolean {
   return phase !== "plugged" && phase !== "charging";

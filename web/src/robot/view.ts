@@ -14,6 +14,7 @@ const withoutRobot = (sentence: { headline: string; detail: string }): Descripti
   tone: "calm",
   scene: { arm: "parked", mark: "asleep" },
   action: null,
+  others: [],
   stoppable: false,
 });
 
