@@ -135,8 +135,6 @@ def live(
     )
 
 
-
-
 def _paused(running: Job) -> Job:
     return running.model_copy(update={"paused": True})
 
@@ -153,9 +151,7 @@ def _asking(running: Job) -> Job:
 
 def _planned(queued: Job) -> Job:
     begin = NOW + timedelta(hours=4)
-    return queued.model_copy(
-        update={"not_before": begin, "unplug_by": begin + timedelta(hours=9)}
-    )
+    return queued.model_copy(update={"not_before": begin, "unplug_by": begin + timedelta(hours=9)})
 
 
 _MOVING_AT_REST = robot(RobotMode.READY, PlugState.FREE)
