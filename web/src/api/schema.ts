@@ -208,7 +208,7 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Guidance
+         * Read the parking guidance
          * @description What the driver of an arriving car is told now.
          *
          *     The camera looks only while somebody watches or asks: the first answer may know of no car yet.
@@ -662,13 +662,13 @@ export interface paths {
             readonly cookie?: never;
         };
         /**
-         * Get Car
+         * Read the simulated car
          * @description Where the simulated car really is.
          */
         readonly get: operations["getSimulatedCar"];
         readonly put?: never;
         /**
-         * Command Car
+         * Drive the simulated car
          * @description Let the simulated car drive in, on, stop or leave; answers at once.
          */
         readonly post: operations["commandSimulatedCar"];
@@ -3495,6 +3495,82 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "arriving": true,
+                     *       "car": {
+                     *         "correlation_xz": 0.12,
+                     *         "distance_mm": 655.2,
+                     *         "margin_mm": -352.4,
+                     *         "seen_at": "2026-03-01T18:04:05.120Z",
+                     *         "sigma_x_mm": 0.4,
+                     *         "sigma_z_mm": 2.1,
+                     *         "skew_deg": 0.8,
+                     *         "skew_sigma_deg": 0.3,
+                     *         "still": false,
+                     *         "turned_deg": -0.6,
+                     *         "vehicle_id": "zoe",
+                     *         "velocity_x_mm_s": 1.5,
+                     *         "velocity_z_mm_s": -240,
+                     *         "x_mm": 642.1,
+                     *         "y_mm": 318.7,
+                     *         "z_mm": 592
+                     *       },
+                     *       "detail": "Still 35 cm to go.",
+                     *       "driver_faces": "robot",
+                     *       "headline": "Go on forward",
+                     *       "max_skew_deg": 3,
+                     *       "remedy": "",
+                     *       "since": "2026-03-01T18:04:03.400Z",
+                     *       "state": "move",
+                     *       "steps": [
+                     *         {
+                     *           "direction": "forward",
+                     *           "distance_mm": 352.4,
+                     *           "shown_cm": 35
+                     *         }
+                     *       ],
+                     *       "zones": {
+                     *         "good": [
+                     *           [
+                     *             560,
+                     *             225
+                     *           ],
+                     *           [
+                     *             740,
+                     *             225
+                     *           ],
+                     *           [
+                     *             740,
+                     *             255
+                     *           ],
+                     *           [
+                     *             560,
+                     *             255
+                     *           ]
+                     *         ],
+                     *         "reachable": [
+                     *           [
+                     *             540,
+                     *             215
+                     *           ],
+                     *           [
+                     *             760,
+                     *             215
+                     *           ],
+                     *           [
+                     *             760,
+                     *             275
+                     *           ],
+                     *           [
+                     *             540,
+                     *             275
+                     *           ]
+                     *         ],
+                     *         "stop_z_mm": 240
+                     *       }
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["Guidance"];
                 };
             };
@@ -4735,6 +4811,15 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "moving": true,
+                     *       "speed_mm_s": 240,
+                     *       "x_mm": 642.1,
+                     *       "y_mm": 318.7,
+                     *       "z_mm": 592
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["SimulatedCarNow"];
                 };
             };
@@ -4752,7 +4837,6 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
-                /** @example null */
                 readonly "application/json": components["schemas"]["DriveIn"] | components["schemas"]["DriveOn"] | components["schemas"]["Brake"] | components["schemas"]["Leave"];
             };
         };
@@ -4763,6 +4847,15 @@ export interface operations {
                     readonly [name: string]: unknown;
                 };
                 content: {
+                    /**
+                     * @example {
+                     *       "moving": true,
+                     *       "speed_mm_s": 240,
+                     *       "x_mm": 642.1,
+                     *       "y_mm": 318.7,
+                     *       "z_mm": 592
+                     *     }
+                     */
                     readonly "application/json": components["schemas"]["SimulatedCarNow"];
                 };
             };
