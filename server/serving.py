@@ -19,7 +19,9 @@ from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
+from server.control.model import RobotMode
 from server.storage.folder_lock import holding
+from server.tidying import tidying_at_rest
 from server.timing import ScaledTimeLoop
 from twin.scene import TwinHost
 
@@ -31,6 +33,7 @@ PING_S = 20
 PING_TIMEOUT_S = 30
 SHUTDOWN_S = 2
 MAX_MESSAGE_BYTES = 1 << 20
+UNDER_WAY = (RobotMode.HOMING, RobotMode.MOVING, RobotMode.STOPPING)
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -95,7 +98,8 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         config = _uvicorn_config(app, settings.clock_speed)
         server = _Server(config, _address(listener), when_ready=twin.start)
         try:
-            await server.serve(sockets=[listener])
+            async with tidying_at_rest(lambda: services.supervisor.mode not in UNDER_WAY):
+                await server.serve(sockets=[listener])
         finally:
             await asyncio.to_thread(twin.stop)
 
