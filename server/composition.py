@@ -39,6 +39,7 @@ from server.recordings.store import RecordingStore
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
 from server.simulated_car import SimulatedCar
+from server.storage.daily_backups import DailyBackups
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.plug import StoredPlug
@@ -90,7 +91,7 @@ async def running(
     calendar = Calendar(speed)
     devices = devices or _devices(settings, folder)
     async with contextlib.AsyncExitStack() as stack:
-        database = await _opened(settings.storage, folder, stack)
+        database = await _opened(settings.storage, folder, calendar, stack)
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
@@ -201,12 +202,18 @@ async def running(
 
 
 async def _opened(
-    settings: StorageSettings, folder: Path | None, stack: contextlib.AsyncExitStack
+    settings: StorageSettings,
+    folder: Path | None,
+    calendar: Calendar,
+    stack: contextlib.AsyncExitStack,
 ) -> Database:
     url = settings.url.get_secret_value() if settings.url else None
     database = Database(folder, url=url, backups_kept=settings.backups_kept)
     await database.open()
     stack.push_async_callback(database.close)
+    backups = DailyBackups(database, calendar)
+    backups.start()
+    stack.push_async_callback(backups.close)
     return database
 
 

@@ -6,7 +6,7 @@ from server.divergence.report import twin_report
 from server.guidance.view import guidance_view
 from server.live.twin_feed import feed_twin
 from server.live.views import robot_view, station_view
-from server.schema.live import Service
+from server.schema.live import Queue, Service
 from server.schema.problem import problem_from
 from server.services import Services
 from server.version import VERSION
@@ -17,6 +17,7 @@ def show(services: Services) -> None:
     live, supervisor, runner = services.live, services.supervisor, services.runner
     live.add("robot", lambda: robot_view(supervisor, runner.socket, services.calendar))
     live.add("job", lambda: runner.newest and services.recordings.show(runner.newest))
+    live.add("queue", lambda: Queue(waiting=runner.waiting))
     live.add(
         "station",
         lambda: station_view(
@@ -44,6 +45,7 @@ def show(services: Services) -> None:
 
     def job_changed() -> None:
         live.changed("robot")
+        live.changed("queue")
         live.changed("job", urgent=True)
 
     supervisor.listen(robot_changed)

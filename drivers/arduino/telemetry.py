@@ -75,5 +75,6 @@ def robot_state(
             TelemetryFlag.SWITCH_RHO3 in flags,
         ),
         queue_free=0 if homing else queue_capacity - sample.queue_used,
+        segments_done=sample.segment,
         fault=fault_of(sample.fault, sample.fault_detail, flags),
     )

@@ -8,6 +8,7 @@ from drivers.robot.errors import (
 )
 from drivers.robot.protocol import RobotDriver, RobotIdentity, StopCategory
 from drivers.robot.state import (
+    SEGMENT_NUMBERS,
     BoardFault,
     BoardState,
     CommandedJoints,
@@ -18,6 +19,7 @@ from drivers.robot.state import (
 )
 
 __all__ = [
+    "SEGMENT_NUMBERS",
     "BoardFault",
     "BoardRefusedError",
     "BoardState",

@@ -67,6 +67,10 @@ class CommandedJoints:
     velocity: JointVelocity
 
 
+SEGMENT_NUMBERS = 1 << 16
+"""Segments are counted modulo this."""
+
+
 @dataclass(frozen=True, slots=True)
 class RobotState:
     """One telemetry sample.
@@ -83,6 +87,8 @@ class RobotState:
         homed: Positions are valid: homed since the last reset and no step was lost since.
         switches: Limit switches.
         queue_free: Segments that can be pushed now.
+        segments_done: Segments that the board has finished, or dropped by a stop, since the
+            connection began, modulo SEGMENT_NUMBERS.
         fault: The latched fault, or None.
     """
 
@@ -96,4 +102,5 @@ class RobotState:
     homed: bool
     switches: LimitSwitches
     queue_free: int
+    segments_done: int
     fault: BoardFault | None

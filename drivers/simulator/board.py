@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from drivers.robot import (
+    SEGMENT_NUMBERS,
     BoardFault,
     BoardRefusedError,
     BoardState,
@@ -318,6 +319,7 @@ class SimulatedBoard:
             homed=self.homed,
             switches=LimitSwitches(*self.pressed_switches(state)),
             queue_free=self.queue_free(now_s),
+            segments_done=self.world.line.done(now_s) % SEGMENT_NUMBERS,
             fault=self.fault,
         )
 

@@ -75,6 +75,7 @@ class SetPointLine:
         self._still_mm_s = still_mm_s
         self._pieces = [resting_at(position, at_s)]
         self._tail: Piece | None = None
+        self._taken = 0
 
     def at(self, t_s: float) -> SetPoint:
         """The set point at a time, past or future."""
@@ -131,6 +132,10 @@ class SetPointLine:
             count += 1
         return count
 
+    def done(self, now_s: float) -> int:
+        """Number of segments that are over, or were dropped, of all that were ever appended."""
+        return self._taken - self.waiting(now_s)
+
     def ran_empty(self, now_s: float) -> bool:
         """Whether the last segment has ended with velocity and nothing followed."""
         return self._tail is not None and now_s >= self._tail.start_s
@@ -140,6 +145,7 @@ class SetPointLine:
         start_s, _, _ = self.queue_end(now_s)
         if self._tail is not None and now_s >= self._tail.end_s:
             self._pieces.append(self._tail)
+        self._taken += len(segments)
         for segment in segments:
             end_s = start_s + segment.duration_s
             self._pieces.append(Piece(start_s, end_s, segment))

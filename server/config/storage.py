@@ -27,8 +27,7 @@ class StorageSettings(Section):
         7,
         ge=0,
         le=365,
-        description="Copies of the SQLite file that are made at a start, at most one a day; "
-        "0 makes none",
+        description="Copies of the SQLite file, one a day; 0 makes none",
     )
 
     @field_validator("url")

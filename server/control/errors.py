@@ -15,6 +15,8 @@ ControlError
 │   └── FollowingError           the slide is not where it should be
 ├── MotionRefusedError           the board refused the motion
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
+├── PlugSeenInCarError           a person says it is free, the station sees it in a car
+├── PlugNotSeenError             a person says it is in a car, the station sees none
 ├── MotionOutOfReachError        joint limit, workspace or singularity
 ├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
 ├── ForceLimitError              the force along the insertion axis went over its limit
@@ -161,6 +163,28 @@ class LateralMotionForbiddenError(ControlError):
     code = "lateral_motion_forbidden"
     title = "The plug may be in the socket"
     remedy = "Unplug first. If the plug hangs free, confirm that on the page."
+
+
+class PlugSeenInCarError(ControlError):
+    """A person says that the plug is free, and the control pilot shows it in a car."""
+
+    code = "plug_seen_in_car"
+    title = "The charging station sees the plug in a car"
+    remedy = (
+        "Look again. If the plug is in, press Unplug. If it hangs free, the charging cable or the "
+        "station is faulty: switch the station off, then confirm again."
+    )
+
+
+class PlugNotSeenError(ControlError):
+    """A person says that the plug is in a car, and the control pilot shows none."""
+
+    code = "plug_not_seen"
+    title = "The charging station sees no car"
+    remedy = (
+        "Look again. If the plug is in, it is not all the way in: press Unplug, the robot pulls it "
+        "straight out. If it hangs free, confirm that on the page."
+    )
 
 
 class MotionOutOfReachError(ControlError):

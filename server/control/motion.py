@@ -6,9 +6,9 @@ import asyncio
 from collections import deque
 from collections.abc import Callable
 
-from drivers.robot import RobotIdentity, RobotState
+from drivers.robot import SEGMENT_NUMBERS, RobotIdentity, RobotState
 from server.control.board import MOVING, Board
-from server.control.errors import ControlError, MotionRefusedError
+from server.control.errors import MotionRefusedError
 from server.control.finishing import finish
 from twin.joints import JointAcceleration
 from twin.motion import JointState, MotionPlan, plan_segments
@@ -19,12 +19,12 @@ CHANGEABLE_LOOK_AHEAD = 8
 the board's queue, which rides out a busier computer."""
 
 IN_TRANSIT_S = 0.01
-"""Segments pushed this recently may be missing from the newest telemetry's count."""
+"""A sample taken so soon after a push may not show it yet."""
 
 ARRIVED_MM = 0.02
 
 Watch = Callable[[RobotState], None]
-"""Called with samples while the motion runs, the newest always; raising stops the motion."""
+"""Called with every sample while the motion runs; raising stops the motion."""
 
 Replan = Callable[[JointState], MotionPlan]
 """Makes a plan from a state that may be in motion."""
@@ -60,7 +60,10 @@ class Motion:
         self._capacity = identity.queue_capacity
         self._watch = watch
         self._interruption: Exception | None = None
-        self._recent: deque[tuple[float, int]] = deque()
+        self._sent = 0
+        self._done_before: int | None = None
+        self._pushed_at_s = 0.0
+        self._push: asyncio.Task[None] | None = None
         self._tail: Segment | None = None
         self._plan = plan
         self._sent_of_plan_s = 0.0
@@ -99,23 +102,31 @@ class Motion:
             state = self._board.telemetry.require()
             self._obey_interruption()
             while True:
-                await self._feed(state)
-                state = await self._board.telemetry.newer_than(state)
+                self._feed(state)
+                known, state = state, await self._board.telemetry.newer_than(state)
                 self._obey_interruption()
+                self._look_at_push()
                 if self._watch is not None:
-                    self._watch(state)
-                if self._arrived(state):
+                    for sample in self._board.telemetry.after(known):
+                        self._watch(sample)
+                if self._push is None and self._arrived(state):
                     return state
         except BaseException:
-            await finish(self._board.come_to_rest())
+            await finish(self._stop())
             raise
+
+    async def _stop(self) -> None:
+        if self._push is not None:
+            self._push.cancel()
+            await asyncio.wait([self._push])
+        await self._board.come_to_rest()
 
     def _obey_interruption(self) -> None:
         if self._interruption is not None:
             raise self._interruption
 
     def _arrived(self, state: RobotState) -> bool:
-        pushed_at_s = self._recent[-1][0] if self._recent else 0.0
+        pushed_at_s = self._pushed_at_s
         if self._pending or state.board in MOVING or state.sampled_at_s <= pushed_at_s:
             return False
         end = self._tail.end if self._tail else self._plan.end.position
@@ -128,21 +139,29 @@ class Motion:
             )
         return False
 
-    async def _feed(self, state: RobotState) -> None:
-        in_transit = self._in_transit(state)
-        in_board = max(self._capacity - state.queue_free - self._done_since(state), 0) + in_transit
-        room = min(self._look_ahead - in_board, state.queue_free - in_transit)
+    def _feed(self, state: RobotState) -> None:
+        """Send what there is room for; a push takes long on a bad cable, and the watch goes on."""
+        if self._push is not None:
+            return
+        not_done = self._sent - self._done(state)  # in the board, or on the way to it
+        ahead = max(not_done - self._done_since(state), 0)
+        room = min(self._look_ahead - ahead, self._capacity - not_done)
         if room <= 0 or not self._pending:
             return
         batch = [self._pending.popleft() for _ in range(min(room, len(self._pending)))]
         self._tail = batch[-1]
+        self._sent += len(batch)
         self._sent_of_plan_s += sum(segment.duration_s for segment in batch)
-        try:
-            await self._board.push(batch)
-        except ControlError:
-            self._obey_interruption()  # the reason behind the refusal, if there is one
-            raise
-        self._recent.append((asyncio.get_running_loop().time(), len(batch)))
+        self._push = asyncio.create_task(self._send(batch), name="push segments")
+
+    async def _send(self, batch: list[Segment]) -> None:
+        await self._board.push(batch)
+        self._pushed_at_s = asyncio.get_running_loop().time()
+
+    def _look_at_push(self) -> None:
+        if self._push is not None and self._push.done():
+            push, self._push = self._push, None
+            push.result()
 
     def _done_since(self, state: RobotState) -> int:
         """Segments that the board has finished for certain since it took a sample."""
@@ -151,11 +170,11 @@ class Motion:
         age_s = asyncio.get_running_loop().time() - state.sampled_at_s
         return int(age_s / self._tail.duration_s)
 
-    def _in_transit(self, state: RobotState) -> int:
-        seen_until_s = state.sampled_at_s - IN_TRANSIT_S
-        while len(self._recent) > 1 and self._recent[0][0] < seen_until_s:
-            self._recent.popleft()
-        return sum(n for at_s, n in self._recent if at_s >= seen_until_s)
+    def _done(self, state: RobotState) -> int:
+        """Segments of this motion that the board had finished at a sample."""
+        if self._done_before is None:
+            self._done_before = state.segments_done
+        return (state.segments_done - self._done_before) % SEGMENT_NUMBERS
 
     def _tail_state(self) -> JointState:
         if self._tail is None:

@@ -27,9 +27,10 @@ from server.control.lease import Lease, LeaseDesk
 from server.control.link import RobotLink
 from server.control.listeners import Listeners
 from server.control.load_guard import LoadGuard
-from server.control.model import Holder, HolderKind, RobotMode
+from server.control.model import Holder, HolderKind, PlugState, RobotMode
 from server.control.mover import Mover
 from server.control.path_check import DEFAULT_STRENGTH, Strength
+from server.control.plug_answer import PlugWitness
 from server.control.plug_guard import HELD, PlugGuard, PlugStore
 from server.control.protection import Protection
 from server.control.release import ReleaseCondition
@@ -80,6 +81,7 @@ class Supervisor(Mover):
             identity=lambda: self._link.identity,
         )
         self._driver = driver
+        self._witness = PlugWitness(plug, station, settings)
         self._desk = LeaseDesk(calendar)
         self._listeners = Listeners()
         self._protection = Protection(
@@ -206,6 +208,11 @@ class Supervisor(Mover):
         """End a lease."""
         self._desk.give_back(lease)
         self._changed()
+
+    async def take_plug_answer(self, lease: Lease, answer: PlugState) -> None:
+        """Write down where a person has seen the plug; see ``PlugWitness.take_answer``."""
+        lease.require()
+        await self._witness.take_answer(answer)
 
     async def enable(self, lease: Lease) -> None:
         """Switch the drives on."""

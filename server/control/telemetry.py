@@ -72,6 +72,15 @@ class Telemetry:
         state = self.require()
         return state if state is not known else await self.next()
 
+    def after(self, known: RobotState) -> list[RobotState]:
+        """All samples since ``known``, oldest first; the newest alone if that is forgotten."""
+        newer: list[RobotState] = []
+        for state in reversed(self._history):
+            if state is known:
+                return newer[::-1]
+            newer.append(state)
+        return newer[:1]
+
     async def reach(self, time_s: float) -> RobotState:
         """Wait for a sample taken at or after ``time_s`` (event loop time).
 

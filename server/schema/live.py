@@ -39,6 +39,15 @@ class Service(Wire):
     )
 
 
+class Queue(Wire):
+    """What comes after the job under way."""
+
+    waiting: Job | None = Field(
+        default=None,
+        description="The job that has not begun; while nothing else runs, `job` may be the same",
+    )
+
+
 class Live(Wire):
     """Every live section."""
 
@@ -48,6 +57,7 @@ class Live(Wire):
     service: Service
     twin: TwinReport = TwinReport()
     guidance: Guidance | None = None
+    queue: Queue = Queue()
 
 
 class LiveChanges(Wire):
@@ -59,6 +69,7 @@ class LiveChanges(Wire):
     service: Service | None = None
     twin: TwinReport | None = None
     guidance: Guidance | None = None
+    queue: Queue | None = None
 
 
 class SnapshotMessage(Wire):

@@ -111,6 +111,6 @@ class Reach(Wire):
 
 
 class PlugConfirmation(Wire):
-    """A person has looked: the plug is out of the car."""
+    """A person has looked: the plug is out of the car, or in it."""
 
-    state: Literal["free"]
+    state: Literal["free", "inserted"]

@@ -199,36 +199,38 @@ class Backups:
         except OSError:
             return None
 
-    def make_due(self, file: Path, *, before_upgrade: bool) -> None:
-        """Copy a database that has been checked, if it is time.
-
-        Args:
-            file: The database.
-            before_upgrade: Its schema is about to change, so a copy must be made.
+    def make_before_upgrade(self, file: Path, now: datetime) -> None:
+        """Copy a database whose schema is about to change.
 
         Raises:
-            StorageError: the copy before an upgrade cannot be made.
+            StorageError: it cannot be made.
         """
-        if before_upgrade:
-            self._make(file, BEFORE_UPGRADE)
-            return
+        self._make(file, BEFORE_UPGRADE, now)
+
+    def make_due(self, file: Path, now: datetime) -> None:
+        """Copy a database, which may be in use, if the newest copy is a day old.
+
+        What goes wrong is only written down: the robot does not depend on it.
+        """
         newest = self.newest()
-        if self._kept == 0 or (newest and datetime.now(UTC) - newest.made_at < EVERY):
+        if self._kept == 0 or (newest and now - newest.made_at < EVERY):
             return
         try:
-            self._make(file, DAILY)
+            self._make(file, DAILY, now)
+            self._tidy()
         except StorageError as error:
             _log.warning("no backup could be made: %s", error.detail)
-            return
-        self._tidy()
+        except OSError as error:
+            _log.warning("old backups could not be removed: %s", error)
 
-    def _make(self, file: Path, kind: str) -> None:
+    def _make(self, file: Path, kind: str, now: datetime) -> None:
         try:
             self._folder.mkdir(mode=0o700, exist_ok=True)
         except OSError as error:
             raise from_system(error, str(self._folder)) from error
-        target = self._folder / f"{kind}{stamp()}{ENDING}"
+        target = self._folder / f"{kind}{stamp(now)}{ENDING}"
         back_up(file, target)
+        os.utime(target, (now.timestamp(), now.timestamp()))
         _log.info("made the backup %s", target)
 
     def _tidy(self) -> None:
@@ -237,9 +239,9 @@ class Backups:
             path.unlink(missing_ok=True)
 
 
-def stamp() -> str:
-    """Now, in UTC, as part of a file's name."""
-    return f"{datetime.now(UTC):%Y-%m-%dT%H%M%S}"
+def stamp(now: datetime | None = None) -> str:
+    """A date in UTC, by default now, as part of a file's name."""
+    return f"{now or datetime.now(UTC):%Y-%m-%dT%H%M%S}"
 
 
 @contextlib.contextmanager

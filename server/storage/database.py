@@ -12,6 +12,7 @@ import contextlib
 import logging
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
 
@@ -94,6 +95,15 @@ class Database:
         finally:
             if self.problem is not before:
                 self._tell()
+
+    async def back_up_if_due(self, now: datetime) -> None:
+        """Make today's copy if there is none yet. Transactions go on meanwhile.
+
+        Args:
+            now: The date.
+        """
+        if self.problem is None:
+            await asyncio.to_thread(self._home.back_up_if_due, now)
 
     async def close(self) -> None:
         """Finish what was begun and close the file."""

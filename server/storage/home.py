@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 from typing import Protocol
 
@@ -40,6 +41,10 @@ class Home(Protocol):
         """
         ...
 
+    def back_up_if_due(self, now: datetime) -> None:
+        """Make today's copy if there is none yet, also while the database is in use."""
+        ...
+
     def copy_into(self, spare: Engine) -> None:
         """Fill an empty database in memory with what can be read.
 
@@ -62,6 +67,9 @@ class MemoryHome:
         """Make the tables, all at once."""
         with self.engine.begin() as connection:
             Base.metadata.create_all(connection)
+
+    def back_up_if_due(self, now: datetime) -> None:
+        """What is in memory shall not survive."""
 
     def copy_into(self, spare: Engine) -> None:
         """There is nothing that could be lost."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import datetime
+
 from sqlalchemy import Engine, text
 from sqlalchemy.exc import DBAPIError
 
@@ -49,6 +51,9 @@ class PostgresHome:
                     upgrade(connection)
         except DBAPIError as error:
             raise from_database(error, self.name) from error
+
+    def back_up_if_due(self, now: datetime) -> None:
+        """Whoever runs the server makes its backups."""
 
     def copy_into(self, spare: Engine) -> None:
         """Fill an empty database in memory with what can be read.

@@ -6,6 +6,7 @@ import logging
 import os
 import sqlite3
 from contextlib import closing
+from datetime import UTC, datetime
 from pathlib import Path
 from urllib.parse import quote
 
@@ -96,8 +97,10 @@ class SqliteHome:
                 self._check(connection, thoroughly=not closed_in_order)
                 is_new = is_empty(connection)
                 outdated = needs_upgrade(connection, self.name)
-            if not is_new:
-                self._backups.make_due(self.file, before_upgrade=outdated)
+            if outdated and not is_new:
+                self._backups.make_before_upgrade(self.file, datetime.now(UTC))
+            elif not is_new:
+                self._backups.make_due(self.file, datetime.now(UTC))
             with connection.begin():
                 if outdated:
                     upgrade(connection)
@@ -115,6 +118,10 @@ class SqliteHome:
             raise DatabaseBrokenError(f"{self.name}: SQLite says: {verdict}.", file=self.name)
         if thoroughly:
             _check_references(connection, self.name)
+
+    def back_up_if_due(self, now: datetime) -> None:
+        """Make today's copy if there is none yet; what goes wrong is only written down."""
+        self._backups.make_due(self.file, now)
 
     def copy_into(self, spare: Engine) -> None:
         """Fill an empty database in memory with what can be read.

@@ -9,8 +9,8 @@ from server.control.model import PlugState, RobotMode
 from server.jobs.model import JobPhase, JobState, JobType, PersonChoice
 from server.schema.divergence import DivergenceReport, TwinReport
 from server.schema.jobs import Job, JobResult, NeedsPerson
-from server.schema.live import Live, Service
-from server.schema.problem import Problem
+from server.schema.live import Live, Queue, Service
+from server.schema.problem import Problem, problem_from
 from server.schema.robot import (
     CommandedMotion,
     ControlHolder,
@@ -21,6 +21,8 @@ from server.schema.robot import (
     Tip,
 )
 from server.schema.station import Station
+from server.storage.errors import DiskFullError
+from tests.support.jobs import job_of
 from twin.divergence import Quantity
 
 Part = Literal["robot", "camera", "station"]
@@ -77,15 +79,12 @@ def job(
     cancel_requested: bool = False,
 ) -> Job:
     """A job that has been in its phase for some seconds."""
-    return Job(
-        id="01956b1e-8c00-7000-8000-000000000001",
+    return job_of(
+        NOW,
         type=job_type,
         state=state,
         phase=phase,
-        vehicle_id="zoe",
-        target_energy_wh=None,
         created_at=NOW - timedelta(seconds=seconds + 40),
-        updated_at=NOW,
         phase_started_at=NOW - timedelta(seconds=seconds),
         cancel_requested=cancel_requested,
         result=result or JobResult(),
@@ -154,6 +153,21 @@ def _planned(queued: Job) -> Job:
     return queued.model_copy(update={"not_before": begin, "unplug_by": begin + timedelta(hours=9)})
 
 
+def _with_next(shown: Live, job_type: JobType, **changes: object) -> Live:
+    """The same with another job that waits."""
+    waiting = job(JobPhase.PREFLIGHT, job_type, JobState.QUEUED)
+    waiting = waiting.model_copy(update={"id": "01956b1e-8c00-7000-8000-000000000002", **changes})
+    return shown.model_copy(update={"queue": Queue(waiting=waiting)})
+
+
+def _unsaved(shown: Live) -> Live:
+    problem = problem_from(
+        DiskFullError("/home/pi/data/plugpilot.sqlite3: database or disk is full.")
+    )
+    service = shown.service.model_copy(update={"storage": problem})
+    return shown.model_copy(update={"service": service})
+
+
 _MOVING_AT_REST = robot(RobotMode.READY, PlugState.FREE)
 _MOVING = robot(RobotMode.MOVING, PlugState.FREE)
 _IN = robot(RobotMode.READY, PlugState.INSERTED)
@@ -192,6 +206,13 @@ SCENES: dict[str, Live] = {
         robot(RobotMode.MOVING, PlugState.INSERTED, force_n=79.1), job(JobPhase.INSERTING)
     ).model_copy(update={"twin": _PARTED}),
     "charging": live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
+    "next": _with_next(
+        live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
+        JobType.CHARGE,
+        not_before=NOW + timedelta(hours=4),
+        unplug_by=NOW + timedelta(hours=13),
+    ),
+    "disk_full": _unsaved(_with_next(live(_IN), JobType.UNPLUG, paused=True)),
     "withdrawing": live(
         robot(RobotMode.MOVING, PlugState.INSERTED),
         job(JobPhase.WITHDRAWING, JobType.UNPLUG),

@@ -3,6 +3,7 @@ import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { History } from "@/parts/history";
+import { Notices } from "@/parts/notices";
 import { PlanDialog } from "@/parts/plan";
 import { Progress } from "@/parts/progress";
 import { ReplayDialog } from "@/parts/replay";
@@ -22,6 +23,7 @@ export function App() {
           <GuidanceCard />
           <Hero />
           <TwinAlarm />
+          <Notices />
           <StationCard />
         </div>
         <div class="column">

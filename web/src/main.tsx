@@ -11,6 +11,7 @@ import "./style/picture.css";
 import "./style/history.css";
 import "./guidance/guidance.css";
 import "./style/plan.css";
+import "./style/notices.css";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("index.html has no element #app");

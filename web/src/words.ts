@@ -232,6 +232,21 @@ export const words = {
     retry: "Try again",
     loading: "Loading…",
   },
+  storage: {
+    title: "Nothing can be saved right now",
+    detail: "You can still stop the robot and unplug the car. What happens meanwhile may be forgotten.",
+  },
+  waiting: {
+    title: "Next",
+    what: { charge: "A charge", plug_in: "Plugging in", unplug: "Unplugging" },
+    begins: (what: string, when: string): string => `${what} begins ${when}.`,
+    paused: (what: string): string => `${what} is paused and does not begin by itself.`,
+    at: (date: string): string => `on ${date}`,
+    after: "when this job has ended",
+    soon: "as soon as the robot is free",
+    by: (date: string): string => `The car is unplugged by ${date}.`,
+    cancel: "Cancel it",
+  },
   history: {
     title: "Earlier jobs",
     none: "Nothing yet.",

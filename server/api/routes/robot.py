@@ -8,7 +8,6 @@ from fastapi import APIRouter
 
 from server.api.dependencies import ServicesDep
 from server.api.problems import problem_responses
-from server.control.errors import LateralMotionForbiddenError
 from server.control.model import PlugState
 from server.live.views import robot_view
 from server.schema.robot import JogStep, PlugConfirmation, Reach, Robot, WayLeft
@@ -107,18 +106,15 @@ async def jog(step: JogStep, services: ServicesDep) -> Robot:
 @router.post(
     "/plug-confirmation",
     operation_id="confirmPlug",
-    summary="Confirm that the plug is out",
+    summary="Say where the plug is",
     responses=problem_responses(409, 422),
 )
 async def confirm_plug(confirmation: PlugConfirmation, services: ServicesDep) -> Robot:
-    """A person has looked and says that the plug is out of the car."""
-    del confirmation  # there is only one thing to confirm
-    supervisor = services.supervisor
-    async with supervisor.control("jog", "Somebody at the robot"):
-        if supervisor.plug.state is PlugState.INSERTED:
-            raise LateralMotionForbiddenError(
-                "The plug is in the socket by PlugPilot's own measurement.", plug="inserted"
-            )
-        if supervisor.plug.state is PlugState.UNKNOWN:
-            await supervisor.plug.is_free()
+    """A person has looked and says where the plug is; refused when the station sees otherwise.
+
+    A plug that is said to be in a car is at an unknown place afterwards, even if that is refused:
+    then the robot only pulls it straight out.
+    """
+    async with services.supervisor.control("jog", "Somebody at the robot") as lease:
+        await services.supervisor.take_plug_answer(lease, PlugState(confirmation.state))
     return _now(services)

@@ -16,10 +16,11 @@ from server.api.app import PREFIX, create_app
 from server.composition import running
 from server.config.settings import Settings
 from server.jobs.model import JobPhase, JobState, JobType
-from server.schema.jobs import Job, JobResult, Playback
+from server.schema.jobs import Playback
 from server.services import Services
 from tests.support.api import problem
 from tests.support.garage import Scene, on_scene
+from tests.support.jobs import job_of
 
 NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
 SEED = 4
@@ -95,20 +96,7 @@ async def test_a_recording_plays_back_and_is_made_only_once(recorded: tuple[Path
 
 
 async def test_without_a_recording_the_answer_says_why(tmp_path: Path) -> None:
-    job = Job(
-        id="01956b1e-8c00-7000-8000-000000000001",
-        type=JobType.CHARGE,
-        state=JobState.SUCCEEDED,
-        phase=JobPhase.PARKING,
-        vehicle_id="zoe",
-        target_energy_wh=None,
-        created_at=NOW,
-        updated_at=NOW,
-        phase_started_at=NOW,
-        cancel_requested=False,
-        result=JobResult(),
-        error=None,
-    )
+    job = job_of(NOW, state=JobState.SUCCEEDED, phase=JobPhase.PARKING)
     async with client(tmp_path) as (http, services):
         await services.jobs.add(job, key=None, digest=None)
         for path in ("recording", "playback", "playback.viser"):

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-import httpx
+from dataclasses import replace
 
+import httpx
+import pytest
+
+from drivers.station import PilotState
+from server.control.model import PlugState
 from server.schema.health import Health
 from server.schema.robot import Robot
 from server.schema.station import Station
@@ -67,7 +72,7 @@ def test_confirming_that_the_plug_is_out() -> None:
         await scene.services.supervisor.plug.doubt()
         problem(await client.post("jobs", json={"type": "plug_in"}), 409, "plug_state")
         problem(
-            await client.post("robot/plug-confirmation", json={"state": "in"}),
+            await client.post("robot/plug-confirmation", json={"state": "parked"}),
             422,
             "invalid_request",
         )
@@ -81,6 +86,53 @@ def test_confirming_that_the_plug_is_out() -> None:
         problem(
             await client.post("robot/plug-confirmation", json=body), 409, "lateral_motion_forbidden"
         )
+
+    on_api(scenario, parked=True)
+
+
+def test_a_person_and_the_control_pilot_must_not_contradict_each_other() -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        plug, station = scene.services.supervisor.plug, scene.garage.station
+
+        async def say(state: str) -> httpx.Response:
+            return await client.post("robot/plug-confirmation", json={"state": state})
+
+        await plug.doubt()
+        for pilot in (PilotState.B, PilotState.C):
+            station.lie(pilot=pilot)
+            document = problem(await say("free"), 409, "plug_seen_in_car")
+            assert document["context"]["pilot"] == pilot.value
+            assert plug.state is PlugState.UNKNOWN
+        assert (await say("inserted")).json()["plug"] == "unknown"
+        station.behave()
+        assert (await say("free")).json()["plug"] == "free"
+        problem(await say("inserted"), 409, "plug_not_seen")
+        assert plug.state is PlugState.UNKNOWN, "what forbids more counts in any case"
+        assert (await _robot(client)).control is None
+
+    on_api(scenario, parked=True)
+
+
+@pytest.mark.parametrize("trouble", ["hangs", "is faulty", "is late", "senses no car"])
+def test_a_station_that_cannot_tell_leaves_it_to_the_person(
+    trouble: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        plug, station = scene.services.supervisor.plug, scene.garage.station
+        await plug.doubt()
+        station.lie(pilot=PilotState.B)
+        match trouble:
+            case "hangs":
+                station.hang()
+            case "is faulty":
+                station.lie(pilot=PilotState.F)
+            case "is late":
+                station.set_clock(-5.0)
+            case _:
+                blind = replace(station.capabilities, senses_car=False)
+                monkeypatch.setattr(type(station), "capabilities", blind)
+        answer = await client.post("robot/plug-confirmation", json={"state": "free"})
+        assert answer.json()["plug"] == "free"
 
     on_api(scenario, parked=True)
 

@@ -144,6 +144,33 @@ def test_cancelling_halts_before_the_lease_is_given_back(cancel_at_s: float) -> 
     in_cell(scenario)
 
 
+def test_the_watch_sees_every_sample_also_while_a_push_takes_long() -> None:
+    async def scenario(cell: RobotCell) -> None:
+        seen: list[float] = []
+        async with cell.supervisor.control("job", "Test") as lease:
+            plan = plan_joint_move(LIMITS, cell.robot.commanded.position, FAR)
+            await cell.supervisor.follow(lease, plan, lambda s: seen.append(s.sampled_at_s))
+        known = [state.sampled_at_s for state in cell.samples]
+        assert len(seen) > 100
+        assert seen == known[known.index(seen[0]) : known.index(seen[-1]) + 1]
+
+    in_cell(scenario, parameters(telemetry_delay_s=0.02, command_delay_s=0.03))
+
+
+@pytest.mark.parametrize("changeable", [True, False])
+def test_a_line_that_is_slow_both_ways_does_not_drain_the_queue(changeable: bool) -> None:
+    async def scenario(cell: RobotCell) -> None:
+        lengths, _ = watch_queue(cell)
+        async with cell.supervisor.control("job", "Test") as lease:
+            plan = plan_joint_move(LIMITS, cell.robot.commanded.position, FAR)
+            motion = cell.supervisor.start_motion(lease, plan, changeable=changeable)
+            await cell.supervisor.run(motion)
+        cruising = lengths[2:-4]
+        assert min(cruising) >= (6 if changeable else 12)
+
+    in_cell(scenario, parameters(telemetry_delay_s=0.021, command_delay_s=0.023))
+
+
 def test_a_watch_that_objects_halts_the_motion() -> None:
     async def scenario(cell: RobotCell) -> None:
         seen: list[float] = []

@@ -17,28 +17,15 @@ from server.control.plug_guard import HELD
 from server.jobs.errors import InsertionJammedError, JobInterruptedError
 from server.jobs.history import History, history_of
 from server.jobs.interruptions import JobInterruption, PersonNeeded, TurnedBack
-from server.jobs.model import JobPhase, JobState, JobType
+from server.jobs.model import JobPhase, JobType
 from server.jobs.recovery import SEATED, Evidence, Way, decide
 from server.jobs.turning_back import WAY_BACK, Return, TurnBack
-from server.schema.jobs import Job, JobEvent, JobResult, NeedsPerson
+from server.schema.jobs import JobEvent, NeedsPerson
+from tests.support.jobs import job_of
 
 NOW = datetime(2026, 3, 1, 18, 0, tzinfo=UTC)
 LIMITS = JobSettings()
 NOTHING_YET = History(None, charging_done=False, energy_before_wh=None, resumptions={})
-A_JOB = Job(
-    id="0",
-    type=JobType.CHARGE,
-    state=JobState.RUNNING,
-    phase=JobPhase.ALIGNING,
-    vehicle_id="zoe",
-    target_energy_wh=None,
-    created_at=NOW,
-    updated_at=NOW,
-    phase_started_at=NOW,
-    cancel_requested=False,
-    result=JobResult(),
-    error=None,
-)
 
 
 def evidence(
@@ -50,7 +37,7 @@ def evidence(
     **job: object,
 ) -> Evidence:
     return Evidence(
-        job=A_JOB.model_copy(update={"type": job_type, "phase": phase, **job}),
+        job=job_of(NOW, type=job_type, phase=phase, **job),
         history=history,
         after_restart=True,
         restarted=True,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from zoneinfo import ZoneInfo
@@ -60,6 +61,26 @@ def test_a_second_job_waits_for_the_first_and_a_third_is_refused() -> None:
         await _began(scene, second)
         assert (await scene.ended(second)).state is JobState.SUCCEEDED
         assert scene.services.supervisor.plug.state is PlugState.PARKED
+
+    on_knowing_scene(scenario, seed=4)
+
+
+def test_who_watches_sees_the_job_that_waits() -> None:
+    async def scenario(scene: Scene) -> None:
+        messages = scene.services.live.watch()
+        live = json.loads(await anext(messages))["live"]
+        assert live["queue"] == {"waiting": None}
+        first = await scene.start(JobType.PLUG_IN)
+        second = await scene.start(JobType.UNPLUG)
+        while live["queue"]["waiting"] is None:
+            live |= json.loads(await anext(messages))["changes"]
+        assert live["queue"]["waiting"]["id"] == second.id
+        assert live["job"]["id"] == first.id
+        while live["job"]["id"] == first.id:
+            live |= json.loads(await anext(messages))["changes"]
+        assert live["job"]["id"] == second.id
+        assert live["queue"] == {"waiting": None}
+        await scene.ended(second)
 
     on_knowing_scene(scenario, seed=4)
 

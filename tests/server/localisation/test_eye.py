@@ -71,6 +71,7 @@ class Scene:
                 homed=True,
                 switches=LimitSwitches(rho1=False, rho2=False, rho3=False),
                 queue_free=8,
+                segments_done=0,
                 fault=None,
             )
         )

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from server.config.settings import Settings
-from server.jobs.model import JobPhase, JobState, JobType
 from server.recordings.reader import Entry
 from server.recordings.records import header_record
 from server.recordings.timeline import NothingToPlayError, Timeline, timeline
@@ -32,26 +31,13 @@ from server.recordings.topics import (
     StationRecord,
 )
 from server.schema.divergence import DivergenceReport
-from server.schema.jobs import Job, JobResult
 from server.schema.robot import Joints
+from tests.support.jobs import job_of
 from twin.divergence import Quantity
 from twin.statics import SagTables
 
 NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
-JOB = Job(
-    id="job",
-    type=JobType.CHARGE,
-    state=JobState.RUNNING,
-    phase=JobPhase.PREFLIGHT,
-    vehicle_id="zoe",
-    target_energy_wh=None,
-    created_at=NOW,
-    updated_at=NOW,
-    phase_started_at=NOW,
-    cancel_requested=False,
-    result=JobResult(),
-    error=None,
-)
+JOB = job_of(NOW)
 
 
 def with_config(config: dict[str, Any]) -> Entry:

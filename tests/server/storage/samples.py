@@ -5,31 +5,19 @@ from __future__ import annotations
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
 
-from server.jobs.model import JobPhase, JobState, JobType
+from server.jobs.model import JobPhase, JobState
 from server.schema.jobs import Job, JobEvent, JobResult
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.sqlite_home import FILE_NAME
+from tests.support.jobs import job_of
 from tests.support.virtual import run_virtual
 
 NOW = datetime(2026, 3, 1, 12, 0, tzinfo=timezone(timedelta(hours=1)))
 
 
 def job(number: int, state: JobState = JobState.RUNNING) -> Job:
-    return Job(
-        id=f"0190{number:04d}-0000-7000-8000-000000000000",
-        type=JobType.CHARGE,
-        state=state,
-        phase=JobPhase.PREFLIGHT,
-        vehicle_id="demo",
-        target_energy_wh=None,
-        created_at=NOW,
-        updated_at=NOW,
-        phase_started_at=NOW,
-        cancel_requested=False,
-        result=JobResult(),
-        error=None,
-    )
+    return job_of(NOW, id=f"0190{number:04d}-0000-7000-8000-000000000000", state=state)
 
 
 def event(sequence: int, message: str = "Something happened.") -> JobEvent:

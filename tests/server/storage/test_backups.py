@@ -128,8 +128,9 @@ def test_a_backup_that_fails_leaves_nothing(tmp_path: Path) -> None:
 def test_a_copy_is_made_once_a_day_and_old_ones_go(tmp_path: Path) -> None:
     file = healthy(tmp_path)
     backups = Backups(tmp_path, 2)
-    backups.make_due(file, before_upgrade=False)
-    backups.make_due(file, before_upgrade=False)
+    now = datetime.now(UTC)
+    backups.make_due(file, now)
+    backups.make_due(file, now)
     (made,) = backups.all()
     assert made.path.name.startswith(DAILY)
     first = Backup(made.path.rename(made.path.with_name(f"{DAILY}1.sqlite3")), made.made_at)
@@ -138,16 +139,16 @@ def test_a_copy_is_made_once_a_day_and_old_ones_go(tmp_path: Path) -> None:
     for days in (4, 3, 2):
         path = first.path.with_name(f"{DAILY}{days}.sqlite3")
         back_up(file, path)
-        then = (datetime.now(UTC) - timedelta(days=days)).timestamp()
+        then = (now - timedelta(days=days)).timestamp()
         os.utime(path, (then, then))
     for path in (first.path, old):
-        then = (datetime.now(UTC) - timedelta(days=1, minutes=1)).timestamp()
+        then = (now - timedelta(days=1, minutes=1)).timestamp()
         os.utime(path, (then, then))
-    backups.make_due(file, before_upgrade=False)
+    backups.make_due(file, now)
     names = {backup.path.name for backup in backups.all()}
     assert len(names) == 3
     assert {first.path.name, old.name} < names
-    Backups(tmp_path, 0).make_due(file, before_upgrade=False)
+    Backups(tmp_path, 0).make_due(file, now)
     assert {backup.path.name for backup in backups.all()} == names
 
 

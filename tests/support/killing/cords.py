@@ -13,7 +13,6 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
-from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationCapabilities, StationDriver, StationError, StationSnapshot
 from twin.motion.segments import Segment
 
@@ -134,14 +133,9 @@ class CordedStation:
 
 
 class CordedCamera:
-    """A CameraDriver at a cord.
+    """A CameraDriver at a cord."""
 
-    Attributes:
-        world: What it looks at, for an ideal eye behind it.
-    """
-
-    def __init__(self, camera: CameraDriver, world: SimulatedWorld, cord: Cord) -> None:
-        self.world = world
+    def __init__(self, camera: CameraDriver, cord: Cord) -> None:
         self._camera = camera
         self._cord = cord
 

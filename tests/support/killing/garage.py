@@ -24,6 +24,7 @@ from server.storage.database import Database
 from server.storage.errors import StorageError
 from tests.support.killing.cords import Cord, CordedCamera, CordedRobot, CordedStation
 from tests.support.killing.power import cut_power
+from tests.support.knowing_eye import knowing_from_the_start
 
 Scenario = Callable[[Services], Awaitable[None]]
 
@@ -41,7 +42,7 @@ class ImmortalGarage:
     """
 
     def __init__(self, folder: Path, seed: int) -> None:
-        simulation = SimulationSettings(seed=seed, parameters=SimulationParameters.perfect())
+        simulation = SimulationSettings(seed=seed, parameters=_parameters())
         self.settings = Settings(simulation=simulation, recordings=RecordingSettings(enabled=False))
         self.garage: SimulatedGarage = build_garage(
             self.settings.geometry,
@@ -92,15 +93,16 @@ class ImmortalGarage:
         cord, garage = self._cord, self.garage
         devices = Devices(
             robot=CordedRobot(garage.robot, cord),
-            camera=CordedCamera(garage.camera, garage.world, cord),
+            camera=CordedCamera(garage.camera, cord),
             station=CordedStation(garage.station, cord),
             garage=garage,
         )
-        async with composition.running(
-            self.settings, folder=self._folder, devices=devices
-        ) as services:
-            cord_database(services.database, cord)
-            await scenario(services)
+        with knowing_from_the_start(garage.world):
+            async with composition.running(
+                self.settings, folder=self._folder, devices=devices
+            ) as services:
+                cord_database(services.database, cord)
+                await scenario(services)
 
     def on_write(self, database: Database, kill_at: Callable[[int, str], bool]) -> None:
         """Kill the server at a piece of work for the database.
@@ -148,15 +150,13 @@ def cord_database(database: Database, cord: Cord) -> None:
 
 
 def _parameters() -> SimulationParameters:
-    """A machine without errors that wakes up homed in its parking place, and tells less often."""
+    """A machine without errors that wakes up homed in its parking place."""
     perfect = SimulationParameters.perfect()
     defaults = Settings()
     board = perfect.board.model_copy(
         update={
             "start_homed": True,
             "start_joints": parking_joints(defaults.geometry, defaults.park),
-            "moving_period_s": 0.02,
-            "rest_period_s": 0.2,
         }
     )
     return perfect.model_copy(update={"board": board})

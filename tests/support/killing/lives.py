@@ -6,7 +6,6 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from unittest.mock import patch
 
 from server.control.model import PlugState
 from server.jobs.model import JobState, JobType
@@ -14,7 +13,6 @@ from server.schema.jobs import Job, JobEvent, JobRequest
 from server.services import Services
 from server.timing import VirtualTimeLoop
 from tests.support.killing.garage import ImmortalGarage, Killed, patience
-from tests.support.killing.ideal_eye import IdealEye
 
 LONG_S = 300.0
 DARK_S = 2.0
@@ -112,10 +110,7 @@ def live_through(
         assert truth.load_breaks == 0
         assert truth.max_contact_force_n < 85.0
 
-    with (
-        patch("server.composition.Eye", IdealEye),
-        asyncio.Runner(loop_factory=VirtualTimeLoop) as runner,
-    ):
+    with asyncio.Runner(loop_factory=VirtualTimeLoop) as runner:
         runner.run(main())
     return lives
 

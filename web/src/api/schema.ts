@@ -584,8 +584,11 @@ export interface paths {
         readonly get?: never;
         readonly put?: never;
         /**
-         * Confirm that the plug is out
-         * @description A person has looked and says that the plug is out of the car.
+         * Say where the plug is
+         * @description A person has looked and says where the plug is; refused when the station sees otherwise.
+         *
+         *     A plug that is said to be in a car is at an unknown place afterwards, even if that is refused:
+         *     then the robot only pulls it straight out.
          */
         readonly post: operations["confirmPlug"];
         readonly delete?: never;
@@ -1932,6 +1935,12 @@ export interface components {
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
             readonly job: components["schemas"]["Job"] | null;
+            /**
+             * @default {
+             *       "waiting": null
+             *     }
+             */
+            readonly queue?: components["schemas"]["Queue"];
             readonly robot: components["schemas"]["Robot"];
             readonly service: components["schemas"]["Service"];
             readonly station: components["schemas"]["Station"];
@@ -1951,6 +1960,8 @@ export interface components {
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
             readonly job?: components["schemas"]["Job"] | null;
+            /** @default null */
+            readonly queue?: components["schemas"]["Queue"] | null;
             /** @default null */
             readonly robot?: components["schemas"]["Robot"] | null;
             /** @default null */
@@ -2136,14 +2147,14 @@ export interface components {
         };
         /**
          * PlugConfirmation
-         * @description A person has looked: the plug is out of the car.
+         * @description A person has looked: the plug is out of the car, or in it.
          */
         readonly PlugConfirmation: {
             /**
              * State
-             * @constant
+             * @enum {string}
              */
-            readonly state: "free";
+            readonly state: "free" | "inserted";
         };
         /**
          * PlugMoved
@@ -2210,6 +2221,17 @@ export interface components {
          * @enum {string}
          */
         readonly Quantity: "rho1" | "rho2" | "rho3" | "set_point" | "force" | "socket" | "phase_time";
+        /**
+         * Queue
+         * @description What comes after the job under way.
+         */
+        readonly Queue: {
+            /**
+             * @description The job that has not begun; while nothing else runs, `job` may be the same
+             * @default null
+             */
+            readonly waiting?: components["schemas"]["Job"] | null;
+        };
         /**
          * Reach
          * @description What is left of each axis before a joint limit, the workspace or a singularity.

@@ -19,6 +19,7 @@ export function merge(live: Live, changes: DeltaMessage["changes"]): Live {
     service: changes.service ?? live.service,
     twin: changes.twin ?? live.twin ?? {},
     guidance: changes.guidance ?? live.guidance ?? null,
+    queue: changes.queue ?? live.queue ?? {},
   };
 }
 

@@ -81,6 +81,21 @@ async function withRunningJob(work: (id: string) => Promise<Job>): Promise<void>
   if (isActive(job)) await work(job.id);
 }
 
+async function withWaitingJob(work: (id: string) => Promise<Job>): Promise<void> {
+  const job = store.live.value?.queue?.waiting ?? null;
+  if (job !== null) await work(job.id);
+}
+
+/** The job that waits does not begin at all. */
+export function cancelWaiting(): void {
+  void attempt(() => withWaitingJob(cancelJob));
+}
+
+/** A paused job that waits begins when its time has come. */
+export function resumeWaiting(): void {
+  void attempt(() => withWaitingJob(resumeJob));
+}
+
 /** The big button. */
 export function press(kind: ActionKind): void {
   switch (kind) {

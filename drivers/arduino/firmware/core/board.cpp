@@ -12,6 +12,8 @@ constexpr uint8_t kStopCircuitDebounceMs = 2;  // a spark of the contactor is sh
 constexpr uint8_t kQuietMs = 10;               // without an encoder count: the slide stands
 constexpr uint16_t kLongestSettlingMs = 500;   // a slide that hums about its place has to do, too
 constexpr uint8_t kLightsMs = 2;               // in the first of them the lights change
+constexpr uint8_t kStartSegments = 6;          // time enough to send a lost one again, twice
+constexpr uint8_t kStartPatienceMs = 100;      // a host that sends fewer gets its way, too
 
 bool releases_drives(Fault fault) {
   return fault == Fault::EMERGENCY_STOP || fault == Fault::HEARTBEAT_LOST ||
@@ -38,14 +40,22 @@ void Board::brake() {
 // From READY. The lights cannot change while an axis steps, so they get time to do it before.
 void Board::begin_motion() {
   interpolator_.hold();
-  start_in_ms_ = kLightsMs;
+  waited_ms_ = 0;
   state_ = State::RUN;
   moving_ = true;
 }
 
+// Not with the first segment: if the second is lost on its way, it comes only when the queue has
+// long run empty.
+void Board::begin_when_filled() {
+  if (state_ != State::RUN || !interpolator_.held()) return;
+  ++waited_ms_;
+  const bool filled = interpolator_.ends_at_rest() || interpolator_.used() >= kStartSegments;
+  if (waited_ms_ >= (filled ? kLightsMs : kStartPatienceMs)) interpolator_.release();
+}
+
 void Board::begin_settling() {
   settling_ = true;
-  start_in_ms_ = 0;
   settling_ms_ = quiet_ms_ = 0;
   moving_ = true;
 }
@@ -201,7 +211,7 @@ Outputs Board::every_millisecond(const Inputs& inputs) {
   encoder_.sample(backwards ? -inputs.encoder_raw : inputs.encoder_raw);
   supply_mv_ = inputs.supply_mv;
   temperature_dc_ = inputs.temperature_dc;
-  if (start_in_ms_ != 0 && --start_in_ms_ == 0) interpolator_.release();
+  begin_when_filled();
 
   now_ = interpolator_.set_point();
 

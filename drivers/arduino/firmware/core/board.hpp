@@ -91,6 +91,7 @@ class Board {
   protocol::Refusal why_not_ready() const;
   bool in_motion_state() const;
   void begin_motion();
+  void begin_when_filled();
   void brake();
   void begin_settling();
   void latch(protocol::Fault fault, uint8_t axes);
@@ -129,7 +130,7 @@ class Board {
   bool settling_ = false;  // a stop is under way: rho3's set point is to be taken over
   bool release_when_stopped_ = false;
   uint8_t pressed_ = 0;
-  uint8_t start_in_ms_ = 0;
+  uint8_t waited_ms_ = 0;  // since the first segment of a motion that has not begun
   uint8_t stop_circuit_open_ms_ = 0;
   uint8_t quiet_ms_ = 0;
   uint16_t settling_ms_ = 0;

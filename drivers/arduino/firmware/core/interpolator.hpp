@@ -99,6 +99,9 @@ class Interpolator {
   // axes go on at their last rates if nothing does, and ran_empty() becomes true.
   bool push(const Segment& segment, const QueueEnd& reached, bool ends_at_rest);
 
+  // Nothing needs to follow what is in the queue.
+  bool ends_at_rest() const { return rests_behind_queue_; }
+
   // The queue ran empty while something still moved; it goes on unbraked. Call brake().
   bool ran_empty() const { return ran_empty_; }
 

@@ -168,7 +168,7 @@ TEST(the_lights_can_change_before_anything_moves) {
   s.run(20);
   CHECK(s.outputs.lights_may_change);
   const double before = s.place[0];
-  for (int i = 0; i < 3; ++i) s.ramp(2000, 0, 0);
+  for (int i = 0; i < 6; ++i) s.ramp(2000, 0, 0);
   CHECK_EQUAL(s.board.state(), State::RUN);
   s.millisecond();
   CHECK(s.outputs.lights_may_change);
@@ -178,6 +178,28 @@ TEST(the_lights_can_change_before_anything_moves) {
   s.run(10);
   CHECK(!s.outputs.lights_may_change);
   CHECK(s.place[0] > before);
+}
+
+TEST(a_motion_waits_for_what_was_lost_on_its_way) {
+  Stand s;
+  s.home();
+  const double before = s.place[0];
+  s.ramp(2000, 0, 0);
+  s.run(60);  // the second segment is sent again
+  CHECK_EQUAL(s.board.state(), State::RUN);
+  CHECK_EQUAL(s.place[0], before);
+  s.ramp(0, 0, 0);  // ends at rest: nothing more is needed
+  s.run(10);
+  CHECK(s.place[0] > before);
+  CHECK(s.run_until([&] { return s.in(State::READY); }, 500) >= 0);
+}
+
+TEST(a_motion_does_not_wait_for_ever) {
+  Stand s;
+  s.home();
+  s.ramp(2000, 0, 0);
+  CHECK(s.run_until([&] { return s.board.state() == State::FAULT; }, 200) > 100);
+  latched(s, Fault::QUEUE_UNDERRUN, true);
 }
 
 TEST(a_stop_before_the_first_step_drops_the_queue) {

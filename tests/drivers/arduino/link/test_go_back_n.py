@@ -2,12 +2,13 @@ from __future__ import annotations
 
 import random
 from collections import deque
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drivers.arduino.link.go_back_n import Numbered, Receiver, Sender
+from drivers.arduino.link.go_back_n import LONGEST_S, Numbered, Receiver, Sender
 from drivers.arduino.protocol import messages
 
 WINDOW = 8
@@ -37,10 +38,50 @@ def test_without_progress_everything_is_sent_again() -> None:
     sender = sender_with(3)
     sender.take_due(0.0)
     assert sender.overdue_s == pytest.approx(RETRANSMIT_S)
-    sender.acknowledge(1, 0.02)
-    assert sender.overdue_s == pytest.approx(0.02 + RETRANSMIT_S)
-    assert [item.seq for item in sender.take_due(0.051)] == [1, 2]
+    sender.acknowledge(1, 0.005)
+    assert sender.overdue_s == pytest.approx(0.005 + RETRANSMIT_S)
+    assert [item.seq for item in sender.take_due(0.036)] == [1, 2]
     assert sender.sent_again == 2
+
+
+def carry(sender: Sender, took_s: float, from_s: float, messages_carried: int) -> float:
+    """One message after the other over a line that loses nothing; returns when all are there."""
+    now_s = from_s
+    for value in range(messages_carried):
+        ticket = sender.offer(numbered(value))
+        answer_s = now_s + took_s
+        sender.take_due(now_s)
+        while sender.overdue_s is not None and sender.overdue_s < answer_s:
+            now_s = sender.overdue_s
+            sender.take_due(now_s)
+        now_s = answer_s
+        assert sender.acknowledge((ticket + 1) % 256, now_s) == range(ticket, ticket + 1)
+    return now_s
+
+
+def test_on_a_slow_line_it_soon_waits_long_enough() -> None:
+    sender = sender_with(0)
+    now_s = carry(sender, 0.045, 0.0, 3)
+    repeated = sender.sent_again
+    assert repeated <= 2
+    now_s = carry(sender, 0.045, now_s, 300)
+    assert sender.sent_again == repeated
+    carry(sender, 0.004, now_s, 50)
+    sender.offer(numbered(0))
+    sender.take_due(now_s + 1.0)
+    assert sender.overdue_s == pytest.approx(now_s + 1.0 + RETRANSMIT_S), "no longer than needed"
+
+
+def test_a_silent_line_is_asked_less_and_less_often_but_never_given_up() -> None:
+    sender = sender_with(1)
+    asked_s = [0.0]
+    sender.take_due(0.0)
+    for _ in range(6):
+        assert sender.overdue_s is not None
+        asked_s.append(sender.overdue_s)
+        assert len(sender.take_due(sender.overdue_s)) == 1
+    waits_s = [b - a for a, b in pairwise(asked_s)]
+    assert waits_s == pytest.approx([0.03, 0.06, LONGEST_S, LONGEST_S, LONGEST_S, LONGEST_S])
 
 
 def test_nothing_is_overdue_when_all_is_acknowledged() -> None:
@@ -74,6 +115,10 @@ class LossyLine:
         self._reach = reach
         self._content: deque[object] = deque()
 
+    @property
+    def is_empty(self) -> bool:
+        return not self._content
+
     def put(self, item: object) -> None:
         if self._rng.random() < self._loss:
             return
@@ -104,6 +149,8 @@ def test_everything_arrives_once_and_in_order(
     now_s = 0.0
     while len(confirmed) < count:
         now_s += 0.002
+        if there.is_empty and back.is_empty and sender.overdue_s is not None:
+            now_s = max(now_s, sender.overdue_s)
         assert now_s < 1000, "it has got stuck"
         for item in sender.take_due(now_s):
             there.put(item)
