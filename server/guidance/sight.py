@@ -243,6 +243,7 @@ class LabelSight:
             lean_covariance=_at_least(jacobian @ pose.covariance[:3, :3] @ jacobian.T),
             from_camera_mm=socket.T_base_label[:3, 3] - T_base_camera[:3, 3],
             flawed=pose.source is PoseSource.CORNERS and module_px > READABLE_MODULE_PX,
+            faces_robot=None if vehicle.driver_faces is None else vehicle.driver_faces == "robot",
         )
 
 
