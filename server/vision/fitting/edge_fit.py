@@ -24,12 +24,8 @@ COARSE_REACH_PX = 40.0
 MOST_COARSE_STEPS = 5
 MOST_FINE_STEPS = 12
 
-_NEAR_PX, _NEAR_MODULES = 2.0, 0.25
+_NEAR_PX, _NEAR_MODULES = 1.0, 0.25
 """After a coarse step as short as the larger of the two, the next would not come nearer."""
-
-_CONVERGED_PX = 0.1
-"""The step after one so short is about a thirtieth of it: below a hundredth of a pixel for the
-farthest edge."""
 
 Image = NDArray[np.uint8]
 
@@ -187,7 +183,7 @@ def finish(
         solved, moved_px = stepped
         if not moved_px < MOST_REACH_PX:
             return None
-        if moved_px <= _CONVERGED_PX and not fine.learn(solved):
+        if moved_px <= fine.short_px and not fine.learn(solved):
             return _result(solved, fine, edges)
     return None
 

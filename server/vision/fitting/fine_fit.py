@@ -24,6 +24,9 @@ _FLOWING_MODULES = 0.18
 """Blur (standard deviation across the edges of one direction) from which on neighbours count."""
 
 _MOST_REST = 25.0  # of an edge, in squared standard deviations
+_SHORT_MODULES, _LEAST_SHORT_PX, _MOST_SHORT_PX = 0.01, 0.05, 0.1
+"""The step after one so short is a tenth to a thirtieth of it, and would change nothing."""
+
 _PROFILE_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
 
@@ -83,6 +86,11 @@ class FineFit:
     @property
     def _module_px(self) -> float:
         return self._camera.fx * self._edges.module_mm / float(self.pose[2, 3])
+
+    @property
+    def short_px(self) -> float:
+        """A step that moves no edge farther is the last."""
+        return float(np.clip(_SHORT_MODULES * self._module_px, _LEAST_SHORT_PX, _MOST_SHORT_PX))
 
     def step(self) -> tuple[RobustStep, float] | None:
         """One step, and how far it moved the farthest edge [px]; None where it leads nowhere."""

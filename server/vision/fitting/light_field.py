@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_profiles import EdgeOffsets, ProfileLevels
@@ -58,13 +59,19 @@ class LightField:
 
 
 def light_field(edges: CodeEdges, measured: EdgeOffsets) -> LightField | None:
-    """Fit black and white to the ends of the profiles; None where too few edges are visible."""
+    """Fit black and white to the ends of the profiles; None where too few edges are visible.
+
+    Only ends that lie two modules deep in their colour count: others never get quite as dark or as
+    bright, but those at the code's border do, and that looks like light that grows outwards.
+    """
     good = measured.visible & (measured.contrast > 0)
     if np.count_nonzero(good) < _LEAST_EDGES:
         return None
-    basis = _bases(edges)[0][:, good]
-    black, white = measured.black[good], measured.white[good]
-    return LightField(_surface(basis, black), _surface(basis, white), _half_mm(edges))
+    return LightField(
+        black=_surface(edges, good, edges.deep_black, measured.black),
+        white=_surface(edges, good, edges.deep_white, measured.white),
+        half_mm=_half_mm(edges),
+    )
 
 
 def _half_mm(edges: CodeEdges) -> float:
@@ -90,8 +97,14 @@ def _basis(x: Array, y: Array) -> Array:
     return np.stack((np.ones_like(x), x, y, x * x, x * y, y * y))
 
 
-def _surface(basis: Array, values: Array) -> Array:
-    """Least squares, repeated without what lies far off; basis has shape (6, n)."""
+def _surface(
+    edges: CodeEdges, good: NDArray[np.bool_], deep: NDArray[np.bool_], grey: Array
+) -> Array:
+    """Least squares, repeated without what lies far off."""
+    chosen = good & deep
+    if np.count_nonzero(chosen) < _LEAST_EDGES:
+        chosen = good
+    basis, values = _bases(edges)[0][:, chosen], grey[chosen]
     coefficients = np.linalg.solve(basis @ basis.T, basis @ values)
     misses = np.abs(values - coefficients @ basis)
     kept = misses < _OUTLIER_MADS * max(median(misses), 1.0)
