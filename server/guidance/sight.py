@@ -159,8 +159,9 @@ class LabelSight:
     def _pose(self, image: Image, code: Code, vehicle: Vehicle) -> LabelPose | Unseen:
         """The accurate pose, or the one of the corners.
 
-        What a rolling shutter does to a moving label is left in: the fit that takes it out has more
-        freedom and can be off by a percent. The track counts on it instead.
+        What a rolling shutter does to a moving label is left in: the fit that takes it out has
+        more freedom, and the few pixels of a label far away do not tell a shear from a tilt. The
+        track counts on it instead.
         """
         try:
             return self._locator.fit(image, code, vehicle.label_size_mm)
