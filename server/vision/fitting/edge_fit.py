@@ -23,6 +23,9 @@ COARSE_REACH_PX = 40.0
 """The start may be off by half a module; those of a tag nearby are large."""
 MOST_COARSE_STEPS = 5
 MOST_FINE_STEPS = 12
+PATIENCE, SETTLED_PX = 5, 0.1
+"""After so many fine steps a fit that still swings by no more than this is good enough: perfectly
+sharp edges snap from pixel to pixel."""
 
 _NEAR_PX, _NEAR_MODULES = 1.0, 0.25
 """After a coarse step as short as the larger of the two, the next would not come nearer."""
@@ -176,14 +179,15 @@ def finish(
         inverted=inverted,
         moving=moving,
     )
-    for _ in range(MOST_FINE_STEPS):
+    for number in range(MOST_FINE_STEPS):
         stepped = fine.step()
         if stepped is None:
             return None
         solved, moved_px = stepped
         if not moved_px < MOST_REACH_PX:
             return None
-        if moved_px <= fine.short_px and not fine.learn(solved):
+        short_px = fine.short_px if number < PATIENCE else SETTLED_PX
+        if moved_px <= short_px and not fine.learn(solved):
             return _result(solved, fine, edges)
     return None
 
