@@ -42,7 +42,7 @@ class StreamSource:
         """
         if not self._settings.url:
             raise CameraMissingError(
-                "The network camera has no address: set camera.stream.url, for instance "
+                "The network camera has no address: set camera.link.stream.url, for instance "
                 "rtsp://camera.local/stream."
             )
         capture = cv2.VideoCapture()

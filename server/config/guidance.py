@@ -17,7 +17,9 @@ class GuidanceSettings(Section):
 
     enabled: bool = True
     driver_faces: Literal["robot", "away"] = Field(
-        "robot", description="Cars come in nose first (robot) or backwards (away)"
+        "robot",
+        description="Cars come in nose first (robot) or backwards (away), unless a vehicle's own "
+        "driver_faces says otherwise",
     )
     margin_mm: float = Field(
         10.0, ge=0, le=80, description="Inside the regular box and the reach, sideways and upwards"

@@ -189,7 +189,8 @@ class Adviser:
                 self._numbers[axis].forget()
                 continue
             shown = self._numbers[axis].show(way_mm)
-            steps.append(Step(self._direction(axis, way_mm), abs(way_mm), shown))
+            direction = _direction(axis, way_mm, faces_robot=car.faces_robot)
+            steps.append(Step(direction, abs(way_mm), shown))
         # From afar the way in comes first: there is room to steer on it.
         far = abs(to_z) > 2 * abs(ways["x"])
         order = {Direction.UP: 0, Direction.DOWN: 0}
@@ -198,15 +199,6 @@ class Adviser:
             key=lambda step: order.get(step.direction, 1 if (step.direction in along) == far else 2)
         )
         return tuple(steps)
-
-    def _direction(self, axis: str, way_mm: float) -> Direction:
-        """Left and right are the driver's, who sits with the face or the back to the robot."""
-        if axis == "y":
-            return Direction.UP if way_mm > 0 else Direction.DOWN
-        facing = self._settings.driver_faces == "robot"
-        if axis == "x":
-            return Direction.RIGHT if (way_mm > 0) == facing else Direction.LEFT
-        return Direction.FORWARD if (way_mm < 0) == facing else Direction.BACK
 
     # --- steadiness --------------------------------------------------------------------------
 
@@ -231,3 +223,12 @@ class Adviser:
 def _further(way_mm: float, by_mm: float) -> float:
     """A way that ends not on the edge but inside."""
     return way_mm + math.copysign(by_mm, way_mm) if way_mm else 0.0
+
+
+def _direction(axis: str, way_mm: float, *, faces_robot: bool) -> Direction:
+    """Left and right are the driver's, who sits with the face or the back to the robot."""
+    if axis == "y":
+        return Direction.UP if way_mm > 0 else Direction.DOWN
+    if axis == "x":
+        return Direction.RIGHT if (way_mm > 0) == faces_robot else Direction.LEFT
+    return Direction.FORWARD if (way_mm < 0) == faces_robot else Direction.BACK

@@ -89,11 +89,7 @@ class Guide:
         self._watched = watched
         self._speed = speed
         self._sight = LabelSight(settings.camera.optics, settings.geometry)
-        self._vanishing = Vanishing(
-            settings.camera.optics,
-            settings.geometry,
-            faces_robot=self._settings.driver_faces == "robot",
-        )
+        self._vanishing = Vanishing(settings.camera.optics, settings.geometry)
         self._adviser = self._new_adviser()
         self._track: CarTrack | None = None
         self._still_since_s: float | None = None

@@ -77,6 +77,7 @@ class Sighting:
         lean_covariance: Of these, shape (2, 2).
         from_camera_mm: From the camera to the label in the base frame, shape (3,).
         flawed: The label can be read, but its edges do not fit: a job would refuse it.
+        faces_robot: The vehicle comes in nose first; None if nothing is known of it.
     """
 
     at_s: float
@@ -88,6 +89,7 @@ class Sighting:
     lean_covariance: Array
     from_camera_mm: Array
     flawed: bool = False
+    faces_robot: bool | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -108,6 +110,7 @@ class CarEstimate:
             driver's right, whether it came in nose or tail first.
         distance_mm: From the camera to the label.
         flawed: The label does not look as it should.
+        faces_robot: Its driver sits with the face to the robot.
     """
 
     at_s: float
@@ -122,6 +125,7 @@ class CarEstimate:
     turned_rad: float
     distance_mm: float
     flawed: bool
+    faces_robot: bool
 
     @property
     def approach_mm_s(self) -> float:

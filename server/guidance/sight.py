@@ -159,8 +159,9 @@ class LabelSight:
     def _pose(self, image: Image, code: Code, vehicle: Vehicle) -> LabelPose | Unseen:
         """The accurate pose, or the one of the corners.
 
-        What a rolling shutter does to a moving label is left in: the fit that takes it out has more
-        freedom and can be off by a percent. The track counts on it instead.
+        What a rolling shutter does to a moving label is left in: the fit that takes it out has
+        more freedom, and the few pixels of a label far away do not tell a shear from a tilt. The
+        track counts on it instead.
         """
         try:
             return self._locator.fit(image, code, vehicle.label_size_mm)
@@ -243,6 +244,7 @@ class LabelSight:
             lean_covariance=_at_least(jacobian @ pose.covariance[:3, :3] @ jacobian.T),
             from_camera_mm=socket.T_base_label[:3, 3] - T_base_camera[:3, 3],
             flawed=pose.source is PoseSource.CORNERS and module_px > READABLE_MODULE_PX,
+            faces_robot=None if vehicle.driver_faces is None else vehicle.driver_faces == "robot",
         )
 
 

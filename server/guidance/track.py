@@ -79,6 +79,12 @@ class CarTrack:
         return self._last
 
     @property
+    def faces_robot(self) -> bool:
+        """Whether the driver sits with the face to the robot."""
+        of_vehicle = self._last.faces_robot
+        return self._settings.driver_faces == "robot" if of_vehicle is None else of_vehicle
+
+    @property
     def travelled_mm(self) -> float:
         """How far it has come while it was seen."""
         return self._travelled_mm
@@ -155,6 +161,7 @@ class CarTrack:
             turned_rad=turned,
             distance_mm=float(np.linalg.norm(last.from_camera_mm)),
             flawed=last.flawed,
+            faces_robot=self.faces_robot,
         )
 
     @property

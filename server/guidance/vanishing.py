@@ -26,13 +26,11 @@ class Vanishing:
     Args:
         optics: Of the camera.
         geometry: Of the robot, whose own plug hides a part of the picture.
-        faces_robot: Drivers sit with their faces to the robot.
     """
 
-    def __init__(self, optics: CameraModel, geometry: RobotGeometry, *, faces_robot: bool) -> None:
+    def __init__(self, optics: CameraModel, geometry: RobotGeometry) -> None:
         self._optics = optics
         self._geometry = geometry
-        self._faces_robot = faces_robot
 
     def direction(
         self, track: CarTrack, within_s: float, T_base_camera: Pose, joints: JointPosition
@@ -54,13 +52,8 @@ class Vanishing:
             if upright is None and self._behind_plug(label, T_base_camera, joints):
                 upright = False
             if upright is not None:
-                return self._side(aside, upright=upright)
+                return _side(aside, upright=upright, faces_robot=track.faces_robot)
         return None
-
-    def _side(self, aside: Array, *, upright: bool) -> Direction:
-        if upright:
-            return Direction.UP if aside[1] > 0 else Direction.DOWN
-        return Direction.RIGHT if (aside[0] > 0) == self._faces_robot else Direction.LEFT
 
     def _beyond_edge(self, label: Array, T_base_camera: Pose) -> bool | None:
         """Whether the label is out of the picture at its top or bottom; None if it is in it."""
@@ -83,3 +76,9 @@ class Vanishing:
         )
         nearest_mm = self._geometry.plug_diameter_mm / 2 + float(share) * _LABEL_MM
         return away_mm < nearest_mm
+
+
+def _side(aside: Array, *, upright: bool, faces_robot: bool) -> Direction:
+    if upright:
+        return Direction.UP if aside[1] > 0 else Direction.DOWN
+    return Direction.RIGHT if (aside[0] > 0) == faces_robot else Direction.LEFT

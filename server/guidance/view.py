@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from server.config.settings import Settings
 from server.guidance import guide
@@ -39,9 +40,15 @@ def view_of(now: guide.Guidance, reach: Reach, settings: Settings, calendar: Cal
         ],
         car=_car(now.car, advice, calendar) if now.car is not None else None,
         zones=_zones(reach, now.car),
-        driver_faces=settings.guidance.driver_faces,
+        driver_faces=_driver_faces(now.car, settings),
         max_skew_deg=settings.insertion.max_tilt_deg,
     )
+
+
+def _driver_faces(car: CarEstimate | None, settings: Settings) -> Literal["robot", "away"]:
+    if car is None:
+        return settings.guidance.driver_faces
+    return "robot" if car.faces_robot else "away"
 
 
 def _car(car: CarEstimate, advice: Advice, calendar: Calendar) -> GuidedCar:

@@ -72,6 +72,6 @@ class Guidance(Wire):
     car: GuidedCar | None
     zones: GuidanceZones
     driver_faces: Literal["robot", "away"] = Field(
-        description="Cars come in nose first, or backwards"
+        description="This car, or any, comes in nose first or backwards"
     )
     max_skew_deg: float = Field(description="What the plug can follow")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -35,6 +35,11 @@ class VehicleSettings(Wire):
         Field(ge=20, le=200, allow_inf_nan=False, description="Side of the code, quiet zone apart"),
     ] = 60.0
     socket: SocketOffset = SocketOffset()
+    driver_faces: Literal["robot", "away"] | None = Field(
+        default=None,
+        description="This car comes in nose first (robot) or backwards (away); "
+        "null: as `guidance.driver_faces` says",
+    )
 
 
 class Vehicle(VehicleSettings):

@@ -114,8 +114,8 @@ class Gates:
         """
         pose = fit.T_camera_label
         corners = project(camera, pose, corners_mm(label_size_mm)).pixels
-        side_px = float(np.mean(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1)))
-        module_px = side_px / modules.shape[0]
+        sides_px = np.sqrt(np.sum((corners - corners[[3, 0, 1, 2]]) ** 2, axis=1))
+        module_px = float(np.mean(sides_px)) / modules.shape[0]
         most_px = max(self.rms_px, self.rms_modules * module_px)
         if not fit.rms_px <= most_px:
             detail = f"The edges are {fit.rms_px:.2f} px off; at most {most_px:.2f} px are allowed."

@@ -19,8 +19,9 @@ from server.vision.fitting.bit_agreement import bit_agreement
 from server.vision.fitting.code_edges import code_edges
 from server.vision.fitting.corner_pose import corner_pose
 from server.vision.fitting.edge_fit import EdgeFit, fit_edges
+from server.vision.fitting.opposite_tilt import may_be_opposite
 from server.vision.fitting.start_pose import corners_mm, start_poses
-from server.vision.fitting.two_poses import fit_best, may_be_opposite
+from server.vision.fitting.two_poses import fit_best
 from server.vision.gates import Gates, turn_deg
 from server.vision.label_pose import LabelPose
 from server.vision.markers.code import Code
@@ -218,7 +219,7 @@ class Locator:
         )
         if fit is None:
             return None
-        if may_be_opposite(image, self._camera, edges, fit, inverted=track.inverted):
+        if may_be_opposite(self._camera, edges, fit):
             return None
         if turn_deg(fit.T_camera_label, predicted) > self._gates.tracked_turn_deg:
             return None

@@ -57,6 +57,7 @@ def car(
         turned_rad=math.radians(turned_deg),
         distance_mm=z_mm + 50,
         flawed=False,
+        faces_robot=True,
     )
 
 

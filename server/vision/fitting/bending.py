@@ -13,6 +13,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_profiles import EdgeOffsets
@@ -30,6 +31,7 @@ _BOW = 3  # unknowns
 _CREASES = (-0.5, 0.0, 0.5, 1.0)  # along a diagonal: 0 is the code's middle, 2 its corner
 
 _RIDGE = 1e-9
+_NOTHING = 1e-30
 
 _PARTS = 4  # along each side of the code
 _EDGES_OF_A_PART = 8
@@ -51,27 +53,33 @@ def significant_bends(
         T_camera_label: Pose, shape (4, 4) [mm].
 
     Returns:
-        Of each kind the derivative of the places along the normals by its unknowns, shape (n, k)
+        Of each kind the derivative of the places along the normals by its unknowns, shape (k, n)
         [px/mm]; nothing where the label looks flat.
     """
     if len(edges.points_mm) < EDGES_FOR_BEND:
         return []
     # A height shifts a point along the label's z: tau's columns are those of a shift.
-    by_height = measured.by_pose[:, 3:] @ T_camera_label[:3, 2]
+    by_height = T_camera_label[:3, 2] @ measured.by_pose[3:]
     bends = by_height * _heights(edges)
     columns = (bends * measured.gain)[:, solved.used]
     weights = solved.weights / solved.scale_px**2
-    weighted = (solved.design * weights[:, None]).T
-    known = np.linalg.solve(weighted @ solved.design, weighted @ columns.T)
-    columns -= known.T @ solved.design.T
+    known = solved.design.T
+    weighted = known * weights
+    columns -= np.linalg.solve(weighted @ known.T, weighted @ columns.T).T @ known
     scores = columns * (weights * solved.residuals)
     totals, scatter = scores.sum(axis=1), scores @ scores.T
-    last, each = len(scores), len(_CREASES)
-    kinds = [slice(0, _BOW), *(slice(at, at + each) for at in range(_BOW, last, each))]
-    # Near head-on and far away some unknowns are hardly seen: the ridge keeps them out.
-    scatter[np.diag_indices_from(scatter)] *= 1 + _RIDGE
-    shown = [totals[kind] @ np.linalg.solve(scatter[kind, kind], totals[kind]) for kind in kinds]
-    return [bends[kind].T for kind, sign in zip(kinds, shown, strict=True) if sign > SIGNIFICANT]
+    # Near head-on and far away some unknowns are hardly seen: the ridge keeps them out. In an ideal
+    # picture nothing is left of any.
+    diagonal = np.diag_indices_from(scatter)
+    scatter[diagonal] = scatter[diagonal] * (1 + _RIDGE) + _NOTHING
+    corners = [slice(at, at + len(_CREASES)) for at in range(_BOW, len(scores), len(_CREASES))]
+    bow = slice(0, _BOW)
+    shown = [float(totals[bow] @ np.linalg.solve(scatter[bow, bow], totals[bow]))]
+    each = totals[_BOW:].reshape(len(corners), -1, 1)
+    solved_each = np.linalg.solve(np.stack([scatter[kind, kind] for kind in corners]), each)
+    shown += (each * solved_each).sum(axis=(1, 2)).tolist()
+    kinds = (bow, *corners)
+    return [bends[kind] for kind, sign in zip(kinds, shown, strict=True) if sign > SIGNIFICANT]
 
 
 @lru_cache(maxsize=8)
@@ -99,14 +107,21 @@ def coherent_rest_px(solved: RobustStep, edges: CodeEdges) -> float:
     Residuals are those in the picture's directions, so edges of opposite polarity count with
     opposite signs; parts with few edges do not count.
     """
-    place = edges.points_mm[solved.used]
-    cell = np.floor((place / np.abs(edges.points_mm).max() + 1) * (_PARTS / 2))
-    cell = np.clip(cell, 0, _PARTS - 1).astype(np.intp)
-    upright = edges.upright[solved.used]
-    part = (cell[:, 0] * _PARTS + cell[:, 1]) * 2 + upright
-    sign = edges.normals[solved.used].sum(axis=1)
-    shift = np.clip(solved.residuals, -_MOST_BEND_PX, _MOST_BEND_PX) * sign
+    parts, signs = _parts(edges)
+    part = parts[solved.used]
+    shift = np.clip(solved.residuals, -_MOST_BEND_PX, _MOST_BEND_PX) * signs[solved.used]
     counts = np.bincount(part, minlength=2 * _PARTS**2)
     sums = np.bincount(part, weights=shift, minlength=2 * _PARTS**2)
     enough = counts >= _EDGES_OF_A_PART
     return float(np.max(np.abs(sums[enough] / counts[enough]), initial=0.0))
+
+
+@lru_cache(maxsize=8)
+def _parts(edges: CodeEdges) -> tuple[NDArray[np.intp], Array]:
+    """Which part and direction each edge belongs to, and which way its white is, shapes (n,)."""
+    cell = np.floor((edges.points_mm / np.abs(edges.points_mm).max() + 1) * (_PARTS / 2))
+    cell = np.clip(cell, 0, _PARTS - 1).astype(np.intp)
+    parts = (cell[:, 0] * _PARTS + cell[:, 1]) * 2 + edges.upright
+    signs = edges.normals.sum(axis=1)
+    parts.flags.writeable = signs.flags.writeable = False  # they are shared through the cache
+    return parts, signs

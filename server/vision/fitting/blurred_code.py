@@ -25,12 +25,12 @@ class BlurredCode(NamedTuple):
     per_mm: float
 
     def at(self, points_mm: Array) -> NDArray[np.float32]:
-        """Values at label coordinates, shape (n, k, 2) -> (n, k)."""
+        """Values at label coordinates x and y, shape (2, k, n) -> (k, n)."""
         places = (points_mm * self.per_mm + self.middle).astype(np.float32)
         seen = cv2.remap(
             self.white,
-            places[..., 0],
-            places[..., 1],
+            places[0],
+            places[1],
             cv2.INTER_CUBIC,
             borderMode=cv2.BORDER_REPLICATE,
         )

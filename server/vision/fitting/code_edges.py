@@ -32,6 +32,8 @@ class CodeEdges:
         module_mm: Side of one module.
         length_mm: Length of each edge.
         side: Number of the module side that each edge is a piece of, shape (n,).
+        deep_black: The next but one module on the black side is black, too, shape (n,).
+        deep_white: The same on the white side.
         modules: The code itself, True is black, shape (m, m).
     """
 
@@ -41,6 +43,8 @@ class CodeEdges:
     module_mm: float
     length_mm: float
     side: NDArray[np.intp]
+    deep_black: NDArray[np.bool_]
+    deep_white: NDArray[np.bool_]
     modules: NDArray[np.bool_]
 
     @property
@@ -62,6 +66,8 @@ def thinned(edges: CodeEdges, most: int) -> CodeEdges:
         normals=edges.normals[kept],
         tangents=edges.tangents[kept],
         side=edges.side[kept],
+        deep_black=edges.deep_black[kept],
+        deep_white=edges.deep_white[kept],
     )
 
 
@@ -88,6 +94,7 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     # _sides speaks of columns; for the transposed matrix x and y change places.
     cells = np.concatenate((across[:, :2], down[:, 1::-1]))
     signs = np.concatenate((across[:, 2], down[:, 2]))
+    deep = np.concatenate((across[:, 3:], down[:, 3:])) != 0
     normals = np.zeros_like(cells)
     normals[: len(across), 0] = signs[: len(across)]
     normals[len(across) :, 1] = signs[len(across) :]
@@ -98,14 +105,35 @@ def _code_edges(packed: bytes, count: int, label_size_mm: float) -> CodeEdges:
     along = (np.arange(pieces) - (pieces - 1) / 2) * length_mm
     points = (points[:, None, :] + tangents[:, None, :] * along[:, None]).reshape(-1, 2)
     normals, tangents = normals.repeat(pieces, axis=0), tangents.repeat(pieces, axis=0)
-    side = np.arange(len(points)) // pieces
-    edges = CodeEdges(points, normals, tangents, module_mm, length_mm, side, modules)
+    deep = deep.repeat(pieces, axis=0)
+    edges = CodeEdges(
+        points_mm=points,
+        normals=normals,
+        tangents=tangents,
+        module_mm=module_mm,
+        length_mm=length_mm,
+        side=np.arange(len(points)) // pieces,
+        deep_black=deep[:, 0],
+        deep_white=deep[:, 1],
+        modules=modules,
+    )
     return thinned(edges, MOST_EDGES)
 
 
 def _sides(modules: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Sides between neighbouring columns: x, y [modules from the top left], direction of white."""
-    black = np.pad(modules, ((0, 0), (1, 1))).astype(np.int8)
-    to_white = black[:, :-1] - black[:, 1:]
-    rows, columns = np.nonzero(to_white)
-    return np.column_stack((columns, rows + 0.5, to_white[rows, columns])).astype(np.float64)
+    """Sides between neighbouring columns, a row for each.
+
+    The columns are x, y [modules from the top left], direction of white, and whether the black and
+    the white are two modules deep.
+    """
+    black = np.pad(modules, ((0, 0), (2, 2))).astype(np.int8)
+    near_left, near_right = black[:, 1:-2], black[:, 2:-1]
+    rows, columns = np.nonzero(near_left - near_right)
+    to_white = (near_left - near_right)[rows, columns]
+    deep_left = (black[:, :-3] == near_left)[rows, columns]
+    deep_right = (black[:, 3:] == near_right)[rows, columns]
+    deep_black = np.where(to_white > 0, deep_left, deep_right)
+    deep_white = np.where(to_white > 0, deep_right, deep_left)
+    return np.column_stack((columns, rows + 0.5, to_white, deep_black, deep_white)).astype(
+        np.float64
+    )

@@ -23,13 +23,12 @@ COARSE_REACH_PX = 40.0
 """The start may be off by half a module; those of a tag nearby are large."""
 MOST_COARSE_STEPS = 5
 MOST_FINE_STEPS = 12
-PATIENCE = 5
-"""After so many fine steps a fit that still swings a little is good enough: perfectly sharp edges
-snap from pixel to pixel."""
+PATIENCE, SETTLED_PX = 5, 0.1
+"""After so many fine steps a fit that still swings by no more than this is good enough: perfectly
+sharp edges snap from pixel to pixel."""
 
-_NEAR_PX = 2.0
-_CONVERGED_PX = 0.05
-_SETTLED_PX = 0.1
+_NEAR_PX, _NEAR_MODULES = 1.0, 0.25
+"""After a coarse step as short as the larger of the two, the next would not come nearer."""
 
 Image = NDArray[np.uint8]
 
@@ -47,6 +46,8 @@ class EdgeFit:
         spread_px: Outward shift of black areas in the code's middle by ink, blur and gamma [px].
         bow_px: Largest mean distance of the edges in any part of the code from the fit [px].
         bend_px: Largest shift of an edge because the label is bent, as the fit has it [px].
+        solved: The last step ...
+        measured: ... and the edges that it was made from.
     """
 
     T_camera_label: Array
@@ -57,6 +58,8 @@ class EdgeFit:
     spread_px: float
     bow_px: float
     bend_px: float
+    solved: RobustStep
+    measured: EdgeOffsets
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,7 +129,7 @@ def approach(
     """
     few = thinned(edges, COARSE_EDGES)
     pose, spread_px = T_start, 0.0
-    alike = np.ones((len(few.points_mm), 1))
+    alike = np.ones((1, len(few.points_mm)))
     near: Approach | None = None
     for _ in range(MOST_COARSE_STEPS):
         measured = edge_offsets(
@@ -138,14 +141,15 @@ def approach(
             spread_px=spread_px,
             reach_px=COARSE_REACH_PX,
         )
-        solved = robust_step(measured, spread_px * alike[:, 0], alike, few.upright)
+        solved = robust_step(measured, spread_px * alike[0], alike, few.upright)
         if solved is None or not solved.moved_px() < COARSE_REACH_PX:
             return None
         pose, spread_px = perturbed(pose, solved.step[:6]), spread_px + float(solved.step[6])
         if pose[2, 3] <= 0:
             return None
         near = Approach(pose, solved.rms_px, spread_px, few, measured)
-        if solved.moved_px() < _NEAR_PX:
+        module_px = camera.fx * edges.module_mm / float(pose[2, 3])
+        if solved.moved_px() < max(_NEAR_PX, _NEAR_MODULES * module_px):
             break
     return near
 
@@ -182,9 +186,8 @@ def finish(
         solved, moved_px = stepped
         if not moved_px < MOST_REACH_PX:
             return None
-        if moved_px > (_CONVERGED_PX if number < PATIENCE else _SETTLED_PX):
-            continue
-        if not fine.learn(solved):
+        short_px = fine.short_px if number < PATIENCE else SETTLED_PX
+        if moved_px <= short_px and not fine.learn(solved):
             return _result(solved, fine, edges)
     return None
 
@@ -201,4 +204,6 @@ def _result(solved: RobustStep, fine: FineFit, edges: CodeEdges) -> EdgeFit:
         spread_px=fine.spread_px,
         bow_px=coherent_rest_px(solved, edges),
         bend_px=fine.bend_px,
+        solved=solved,
+        measured=fine.measured,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -23,6 +24,7 @@ MOST_REACH_PX = 12.0
 _MOST_HALF_STEPS = 16
 _LEAST_GAIN, _MOST_GAIN = 0.05, 1.5
 _LINES = np.array((-1 / 3, 0.0, 1 / 3), dtype=np.float32)  # side by side, of an edge's length
+_QUARTER_TURN = np.array([[1.0], [-1.0]])
 
 
 class ProfileLevels(NamedTuple):
@@ -39,10 +41,11 @@ class EdgeOffsets(NamedTuple):
 
     Attributes:
         offset_px: Along the picture's normal, positive towards white, shape (n,) [px].
-        by_pose: Derivative of the predicted place along the normal by (omega, tau), shape (n, 6).
+        by_pose: Derivative of the predicted place along the normal by (omega, tau), shape (6, n).
+        normal: Unit vectors along the edges' normals in the picture, towards white, (2, n).
         contrast: Grey step from black to white, negative where the picture contradicts, (n,).
         visible: Whole profile inside the picture, shape (n,).
-        by_row_way: Derivative of the predicted place along the normal by the way per row, (n, 2).
+        by_row_way: Derivative of the predicted place along the normal by the way per row, (2, n).
         gain: Derivative of the offset by a shift of the edge: 1 where the profile holds all of
             the edge, less where blur or motion carry it beyond the ends, shape (n,).
         variance_px2: Second central moment of the gradient: the edge's blur squared, shape (n,).
@@ -52,6 +55,7 @@ class EdgeOffsets(NamedTuple):
 
     offset_px: Array
     by_pose: Array
+    normal: Array
     contrast: Array
     visible: NDArray[np.bool_]
     by_row_way: Array
@@ -100,53 +104,52 @@ def edge_offsets(
         expected: The blurred code, whose own centroids are taken away.
     """
     seen = project(camera, T_camera_label, edges.points_mm)
-    rows = seen.pixels[:, 1:] - picture.middle_row
-    pixels = seen.pixels if row_way is None else seen.pixels + rows * row_way
-    in_plane = seen.by_point @ T_camera_label[:3, :2]  # pixel by label x and y, (n, 2, 2)
-    to_white = np.einsum("nij,nj->ni", in_plane, edges.normals)
-    along = np.einsum("nij,nj->ni", in_plane, edges.tangents)
-    normal = along[:, ::-1] * (1.0, -1.0)
-    normal /= np.sqrt(normal[:, :1] ** 2 + normal[:, 1:] ** 2)
-    across = normal[:, 0] * to_white[:, 0] + normal[:, 1] * to_white[:, 1]  # label mm -> px
-    normal *= np.sign(across)[:, None]
+    rows = seen.u_v[1] - picture.middle_row
+    pixels = seen.u_v if row_way is None else seen.u_v + rows * row_way[:, None]
+    to_white = seen.along(T_camera_label[:3, :2] @ edges.normals.T)
+    along = seen.along(T_camera_label[:3, :2] @ edges.tangents.T)
+    normal = along[::-1] * _QUARTER_TURN
+    normal /= np.sqrt(normal[0] ** 2 + normal[1] ** 2)
+    across = normal[0] * to_white[0] + normal[1] * to_white[1]  # label mm -> px
+    normal *= np.sign(across)
     across = np.abs(across)
 
-    half_module = across * edges.module_mm * REACH_MODULES
+    half_module = across * (edges.module_mm * REACH_MODULES)
     reach = np.clip(half_module - np.abs(spread_px), 1.0, reach_px)
     longest = float(np.max(reach, initial=2.0))
     # Steps of a pixel, but of half a pixel across the short profiles of sharp edges.
-    half_steps = min(int(np.ceil(max(longest, min(2 * longest, 6.0)))), _MOST_HALF_STEPS)
-    steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
-    middle = pixels - picture.left_top_px + normal * np.reshape(spread_px, (-1, 1))
-    forward = normal * reach[:, None]
+    half_steps = min(math.ceil(max(longest, min(2 * longest, 6.0))), _MOST_HALF_STEPS)
+    sampling = _sampling(half_steps)
+    middle = pixels - picture.left_top_px[:, None] + normal * spread_px
+    forward = normal * reach
     beside = along * edges.length_mm
     extent = np.abs(forward) + np.abs(beside) / 3
-    last = (picture.light.shape[1] - 1, picture.light.shape[0] - 1)
-    visible = np.all((middle >= extent) & (middle + extent <= last), axis=1)
-    grey = _profiles(picture.light, middle, beside, forward, steps)
+    last = np.array(picture.light.shape[::-1])[:, None] - 1
+    inside = (middle >= extent) & (middle + extent <= last)
+    visible = inside[0] & inside[1]
+    grey = _profiles(picture.light, middle, beside, forward, sampling)
     if inverted:
         grey = 255 - grey
-    black, white = grey[:, 0].astype(np.float64), grey[:, -1].astype(np.float64)
+    black, white = grey[0].astype(np.float64), grey[-1].astype(np.float64)
     if levels is not None:
-        grey = _levelled(grey, levels, spread_px / across, reach / across, steps)
+        grey = _levelled(grey, levels, spread_px / across, reach / across, sampling.steps)
 
-    gradient = grey[:, 1:] - grey[:, :-1]
-    middles = (steps[:-1] + steps[1:]) / 2
-    contrast = gradient.sum(axis=1).astype(np.float64)
+    gradient = grey[1:] - grey[:-1]
+    contrast, first, second = (sampling.moments @ gradient).astype(np.float64)
     safe = np.where(contrast > 0, contrast, 1.0)
-    moments = gradient @ np.column_stack((middles, middles**2))
-    centroid = moments[:, 0] / safe * reach
-    variance = moments[:, 1] / safe * reach**2 - centroid**2
+    share = first / safe
+    centroid = share * reach
+    variance = (second / safe - share**2) * reach**2
     if expected is not None:
-        forward_mm = np.einsum("nij,nj->ni", np.linalg.inv(in_plane), forward)
-        centroid = centroid - _expected_centroid(expected, edges, forward_mm, steps) * reach
+        forward_mm = _in_the_label(forward, to_white, along, edges)
+        centroid = centroid - _expected_centroid(expected, edges, forward_mm, sampling) * reach
     offset = np.clip(centroid, -reach, reach) + spread_px
     offset[~visible | (contrast <= 0)] = 0.0
-    by_pose = seen.by_pose_along(normal)
-    gain = _gain(gradient, moments[:, 0] / safe, safe, half_steps)
+    gain = _gain(gradient, share, safe, half_steps)
     return EdgeOffsets(
         offset_px=offset,
-        by_pose=by_pose,
+        by_pose=seen.by_pose_along(normal),
+        normal=normal,
         contrast=contrast,
         visible=visible,
         by_row_way=normal * rows,
@@ -157,20 +160,28 @@ def edge_offsets(
     )
 
 
+def _in_the_label(forward: Array, to_white: Array, along: Array, edges: CodeEdges) -> Array:
+    """Which ways on the label appear as given ones in the picture, (2, n) [px] -> (n, 2) [mm].
+
+    The ways to white and along an edge, both of a millimetre, span the label.
+    """
+    area = to_white[0] * along[1] - to_white[1] * along[0]
+    white_mm = (forward[0] * along[1] - forward[1] * along[0]) / area
+    along_mm = (to_white[0] * forward[1] - to_white[1] * forward[0]) / area
+    ways = edges.normals * white_mm[:, None] + edges.tangents * along_mm[:, None]
+    return np.asarray(ways, dtype=np.float64)
+
+
 def _expected_centroid(
-    expected: BlurredCode, edges: CodeEdges, forward_mm: Array, steps: NDArray[np.float32]
+    expected: BlurredCode, edges: CodeEdges, forward_mm: Array, sampling: _Sampling
 ) -> Array:
     """Centroid of the same profiles of the blurred code on -1..1, shape (n,)."""
-    count = len(edges.points_mm)
-    beside = edges.tangents[:, None, None, :] * edges.length_mm * _LINES[:, None, None]
-    across = forward_mm[:, None, None, :] * steps[:, None]
-    places = edges.points_mm[:, None, None, :] + beside + across
-    white = expected.at(places.reshape(count, -1, 2)).reshape(count, len(_LINES), -1).mean(axis=1)
-    gradient = white[:, 1:] - white[:, :-1]
-    contrast = gradient.sum(axis=1)
-    middles = (steps[:-1] + steps[1:]) / 2
+    vectors = np.stack((edges.points_mm, edges.tangents * edges.length_mm, forward_mm))
+    places = sampling.places @ vectors.transpose(2, 0, 1)
+    white = expected.at(places).reshape(len(_LINES), -1, len(forward_mm)).mean(axis=0)
+    contrast, first, _ = sampling.moments @ (white[1:] - white[:-1])
     safe = np.where(contrast > 0, contrast, np.inf)
-    return np.asarray(np.clip(gradient @ middles / safe, -1, 1), dtype=np.float64)
+    return np.asarray(np.clip(first / safe, -1, 1), dtype=np.float64)
 
 
 def _gain(
@@ -184,9 +195,10 @@ def _gain(
     With the gradient g on -1..1, c = int s g ds / int g ds; shifting g by d changes c by
     dc/dd = 1 - (g(1) + g(-1) - c (g(1) - g(-1))) / int g ds.
     """
-    first, last = gradient[:, 0], gradient[:, -1]
+    first, last = gradient[0], gradient[-1]
     loss = half_steps * (first + last - centroid * (last - first))
-    return np.clip(1 - loss / contrast, _LEAST_GAIN, _MOST_GAIN)
+    gain = np.clip(1 - loss / contrast, _LEAST_GAIN, _MOST_GAIN)
+    return np.asarray(gain, dtype=np.float64)
 
 
 def _levelled(
@@ -196,34 +208,51 @@ def _levelled(
     reach_mm: Array,
     steps: NDArray[np.float32],
 ) -> NDArray[np.float32]:
-    """Profiles relative to the local black (0) and white (1), shape (n, steps)."""
+    """Profiles relative to the local black (0) and white (1), shape (steps, n)."""
     black = levels.black + levels.black_per_mm * spread_mm
     contrast = levels.contrast + levels.contrast_per_mm * spread_mm
-    lifted = grey - black.astype(np.float32)[:, None]
-    lifted -= (levels.black_per_mm * reach_mm).astype(np.float32)[:, None] * steps
-    slope = (levels.contrast_per_mm * reach_mm / contrast).astype(np.float32)[:, None]
-    lifted /= contrast.astype(np.float32)[:, None] * (1 + slope * steps)
+    along = steps[:, None]
+    lifted = grey - black.astype(np.float32)
+    lifted -= (levels.black_per_mm * reach_mm).astype(np.float32) * along
+    slope = (levels.contrast_per_mm * reach_mm).astype(np.float32)
+    lifted /= contrast.astype(np.float32) + slope * along
     return lifted
 
 
+class _Sampling(NamedTuple):
+    """Where profiles are sampled, and what is made of their gradients.
+
+    Attributes:
+        steps: Along the normal, -1 to 1, shape (s,).
+        places: Shares of (middle, beside, forward) in every sample's place, line by line and step
+            by step, shape (lines s, 3).
+        moments: Turn gradients between steps into their sum, first and second moment, (3, s - 1).
+    """
+
+    steps: NDArray[np.float32]
+    places: NDArray[np.float32]
+    moments: NDArray[np.float32]
+
+
+@lru_cache(maxsize=2 * _MOST_HALF_STEPS)
+def _sampling(half_steps: int) -> _Sampling:
+    steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
+    lines, along = np.meshgrid(_LINES, steps, indexing="ij")
+    places = np.column_stack((np.ones(lines.size), lines.ravel(), along.ravel()))
+    middles = (steps[:-1] + steps[1:]) / 2
+    moments = np.stack((np.ones_like(middles), middles, middles**2))
+    return _Sampling(steps, places.astype(np.float32), moments.astype(np.float32))
+
+
 def _profiles(
-    light: NDArray[np.float32],
-    middle: Array,
-    beside: Array,
-    forward: Array,
-    steps: NDArray[np.float32],
+    light: NDArray[np.float32], middle: Array, beside: Array, forward: Array, sampling: _Sampling
 ) -> NDArray[np.float32]:
-    """Light along each edge's normal, the mean of a few lines side by side, (n, steps)."""
-    count = len(middle)
-    maps = []
-    for axis in (0, 1):
-        lines = middle[:, axis, None].astype(np.float32)
-        lines = lines + beside[:, axis, None].astype(np.float32) * _LINES
-        across = forward[:, axis, None].astype(np.float32) * steps
-        maps.append((lines[:, :, None] + across[:, None, :]).reshape(count, -1))
-    seen = cv2.remap(light, maps[0], maps[1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    lines = np.asarray(seen, dtype=np.float32).reshape(count, len(_LINES), len(steps))
-    total = lines[:, 0] + lines[:, 1]
-    total += lines[:, 2]
-    total /= 3
-    return total
+    """Light along each edge's normal, the mean of a few lines side by side, (steps, n)."""
+    vectors = np.stack((middle, beside, forward), axis=1).astype(np.float32)
+    map_x, map_y = sampling.places @ vectors
+    seen = cv2.remap(light, map_x, map_y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    lines = np.asarray(seen, dtype=np.float32).reshape(len(_LINES), -1, middle.shape[1])
+    total = lines[0] + lines[1]
+    total += lines[2]
+    total *= np.float32(1 / 3)
+    return np.asarray(total, dtype=np.float32)

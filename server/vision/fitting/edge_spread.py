@@ -21,7 +21,7 @@ EDGES_FOR_SLOPE, EDGES_FOR_BOW = 100, 150
 
 @lru_cache(maxsize=8)
 def spread_basis(edges: CodeEdges) -> Array:
-    """Derivative of each edge's shift by the unknowns: 1; x, y; x^2, xy, y^2, shape (n, s).
+    """Derivative of each edge's shift by the unknowns: 1; x, y; x^2, xy, y^2, shape (s, n).
 
     x and y run from -1 to 1 over the code.
     """
@@ -31,6 +31,6 @@ def spread_basis(edges: CodeEdges) -> Array:
         columns += [x, y]
     if len(x) >= EDGES_FOR_BOW:
         columns += [x * x, x * y, y * y]
-    basis = np.column_stack(columns)
+    basis = np.stack(columns)
     basis.flags.writeable = False  # it is shared through the cache
     return basis

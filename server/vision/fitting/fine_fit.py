@@ -24,6 +24,9 @@ _FLOWING_MODULES = 0.18
 """Blur (standard deviation across the edges of one direction) from which on neighbours count."""
 
 _MOST_REST = 25.0  # of an edge, in squared standard deviations
+_SHORT_MODULES, _LEAST_SHORT_PX, _MOST_SHORT_PX = 0.01, 0.05, 0.1
+"""The step after one so short is a tenth to a thirtieth of it, and would change nothing."""
+
 _PROFILE_WIDTHS = 3.0
 _LEAST_REACH_PX = 2.0
 
@@ -60,12 +63,12 @@ class FineFit:
         self._inverted, self._moving = inverted, moving
         self.pose = T_camera_label
         self._basis = spread_basis(edges)
-        self._spread = np.zeros(self._basis.shape[1])
+        self._spread = np.zeros(len(self._basis))
         self._spread[0] = spread_px
         self._row_way = np.zeros(2)
         # Longer profiles than the blur only collect noise.
         self._reach_px = max(_PROFILE_WIDTHS * measured.width_px(), _LEAST_REACH_PX)
-        self._measured = measured
+        self.measured = measured
         self._light = light_field(few, measured)
         self._levels = None if self._light is None else self._light.levels(edges)
         self._blurred: BlurredCode | None = None
@@ -84,10 +87,15 @@ class FineFit:
     def _module_px(self) -> float:
         return self._camera.fx * self._edges.module_mm / float(self.pose[2, 3])
 
+    @property
+    def short_px(self) -> float:
+        """A step that moves no edge farther is the last."""
+        return float(np.clip(_SHORT_MODULES * self._module_px, _LEAST_SHORT_PX, _MOST_SHORT_PX))
+
     def step(self) -> tuple[RobustStep, float] | None:
         """One step, and how far it moved the farthest edge [px]; None where it leads nowhere."""
-        spread_px = self._basis @ self._spread
-        self._measured = edge_offsets(
+        spread_px = self._spread @ self._basis
+        self.measured = edge_offsets(
             self._picture,
             self._camera,
             self._edges,
@@ -96,18 +104,16 @@ class FineFit:
             spread_px=spread_px,
             reach_px=self._reach_px,
             levels=self._levels,
-            row_way=self._row_way,
+            row_way=self._row_way if self._moving else None,
             expected=self._blurred,
         )
         others = [self._basis]
         if self._moving:
-            others.append(self._measured.by_row_way)
-        lasting = 6 + sum(columns.shape[1] for columns in others)
+            others.append(self.measured.by_row_way)
+        lasting = 6 + sum(len(rows) for rows in others)
         if self._bend is not None:
             others.append(self._bend)  # always told anew, for the profiles stay where they are
-        solved = robust_step(
-            self._measured, spread_px, np.column_stack(others), self._edges.upright
-        )
+        solved = robust_step(self.measured, spread_px, np.concatenate(others), self._edges.upright)
         if solved is None:
             return None
         self.pose = perturbed(self.pose, solved.step[:6])
@@ -122,24 +128,24 @@ class FineFit:
         """After a short step: see what the picture holds besides; whether to go on stepping."""
         if self._looks > 0:
             self._looks -= 1
-            light = light_field(self._edges, self._measured)
+            light = light_field(self._edges, self.measured)
             if light is not None:
                 self._measure_blur(light)
                 return True
         if self._bend is None:
-            bends = significant_bends(solved, self._measured, self._edges, self.pose)
+            bends = significant_bends(solved, self.measured, self._edges, self.pose)
             self._bend = self._best_of(bends) if len(bends) > 1 else next(iter(bends), None)
             return self._bend is not None
         return False
 
     def _best_of(self, bends: list[Array]) -> Array | None:
         """The bend that leaves the smallest residuals, those of the loose part included."""
-        spread_px = self._basis @ self._spread
+        spread_px = self._spread @ self._basis
         least, best = np.inf, None
         scale_px: Array | None = None
         for bend in bends:
-            others = np.column_stack((self._basis, bend))
-            solved = robust_step(self._measured, spread_px, others, self._edges.upright)
+            others = np.concatenate((self._basis, bend))
+            solved = robust_step(self.measured, spread_px, others, self._edges.upright)
             if solved is None:
                 continue
             scale_px = solved.scale_px if scale_px is None else scale_px
@@ -157,7 +163,7 @@ class FineFit:
             self.pose,
             light,
             inverted=self._inverted,
-            row_way=self._row_way,
+            row_way=self._row_way if self._moving else None,
         )
 
 

@@ -30,25 +30,24 @@ def fit_covariance(solved: RobustStep, edges: CodeEdges, distance_mm: float) -> 
         edges: All edges of the code.
         distance_mm: Along the optical axis.
     """
-    weighted = solved.design / solved.scale_px[:, None]
-    inverse = np.linalg.inv(weighted.T @ weighted * solved.efficiency)
-    scores = weighted * (solved.weights * solved.residuals / solved.scale_px)[:, None]
+    weighted = solved.design.T / solved.scale_px
+    inverse = np.linalg.inv(weighted @ weighted.T * solved.efficiency)
+    scores = weighted * (solved.weights * solved.residuals / solved.scale_px)
     leverage = _leverages(weighted, solved.weights)
     side = edges.side[solved.used]
     begins = np.flatnonzero(np.diff(side, prepend=-1))
     if len(begins) < len(side):
-        scores = np.add.reduceat(scores, begins, axis=0)
+        scores = np.add.reduceat(scores, begins, axis=1)
         leverage = np.add.reduceat(leverage, begins)
     # A side that draws the fit towards itself shows too little of its error: divide by 1 - h.
-    free = 1 - np.minimum(leverage, _MOST_LEVERAGE)
-    middle = (scores / free[:, None]).T @ scores
-    covariance = np.asarray((inverse @ middle @ inverse)[:6, :6])
+    scores /= 1 - np.minimum(leverage, _MOST_LEVERAGE)
+    covariance = np.asarray((inverse @ (scores @ scores.T) @ inverse)[:6, :6])
     covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2
     covariance[5, 5] += (DEPTH_FLOOR * distance_mm) ** 2
     return covariance
 
 
 def _leverages(weighted: Array, weights: Array) -> Array:
-    """How much of its own error each edge takes out of its residual, shape (n,)."""
-    normal = (weighted * weights[:, None]).T @ weighted
-    return np.asarray(weights * np.sum(weighted @ np.linalg.inv(normal) * weighted, axis=1))
+    """How much of its own error each edge takes out of its residual, (k, n) and (n,) -> (n,)."""
+    normal = (weighted * weights) @ weighted.T
+    return np.asarray(weights * np.sum((np.linalg.inv(normal) @ weighted) * weighted, axis=0))

@@ -8,8 +8,10 @@ weight notices it; hence the profiles are measured relative to the local black a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_profiles import EdgeOffsets, ProfileLevels
@@ -28,7 +30,7 @@ class LightField:
     Attributes:
         black: Six coefficients of 1, x, y, x^2, xy, y^2 with x and y in units of half_mm.
         white: The same for white.
-        half_mm: Unit of the place.
+        half_mm: Unit of the place: half the code's side.
     """
 
     black: Array
@@ -38,54 +40,75 @@ class LightField:
     def at(self, points_mm: Array) -> tuple[Array, Array]:
         """Black and contrast at label coordinates, shape (n, 2), never without contrast."""
         basis = _basis(*(points_mm / self.half_mm).T)
-        contrast = basis @ (self.white - self.black)
-        least = _LEAST_CONTRAST * abs(float(contrast.mean()))
-        return basis @ self.black, np.maximum(contrast, least)
+        return self.black @ basis, self._contrast(basis)
 
     def levels(self, edges: CodeEdges) -> ProfileLevels:
         """Black, contrast and their slopes along the normals at every edge."""
-        x, y = (edges.points_mm / self.half_mm).T
-        basis = _basis(x, y)
-        zero, one = np.zeros_like(x), np.ones_like(x)
-        by_x = np.column_stack((zero, one, zero, 2 * x, y, zero))
-        by_y = np.column_stack((zero, zero, one, zero, x, 2 * y))
-        normals = edges.normals / self.half_mm
-        by_normal = by_x * normals[:, :1] + by_y * normals[:, 1:]
-        contrast = self.white - self.black
-        values = basis @ contrast
-        least = _LEAST_CONTRAST * abs(float(values.mean()))
+        basis, by_normal = _bases(edges)
         return ProfileLevels(
-            black=basis @ self.black,
-            black_per_mm=by_normal @ self.black,
-            contrast=np.maximum(values, least),
-            contrast_per_mm=by_normal @ contrast,
+            black=self.black @ basis,
+            black_per_mm=self.black @ by_normal,
+            contrast=self._contrast(basis),
+            contrast_per_mm=(self.white - self.black) @ by_normal,
         )
+
+    def _contrast(self, basis: Array) -> Array:
+        contrast = (self.white - self.black) @ basis
+        least = _LEAST_CONTRAST * abs(float(contrast.mean()))
+        return np.maximum(contrast, least)
 
 
 def light_field(edges: CodeEdges, measured: EdgeOffsets) -> LightField | None:
-    """Fit black and white to the ends of the profiles; None where too few edges are visible."""
+    """Fit black and white to the ends of the profiles; None where too few edges are visible.
+
+    Only ends that lie two modules deep in their colour count: others never get quite as dark or as
+    bright, but those at the code's border do, and that looks like light that grows outwards.
+    """
     good = measured.visible & (measured.contrast > 0)
     if np.count_nonzero(good) < _LEAST_EDGES:
         return None
-    half_mm = float(np.abs(edges.points_mm).max())
-    x, y = (edges.points_mm[good] / half_mm).T
-    basis = _basis(x, y)
-    black, white = measured.black[good], measured.white[good]
-    return LightField(_surface(basis, black), _surface(basis, white), half_mm)
+    return LightField(
+        black=_surface(edges, good, edges.deep_black, measured.black),
+        white=_surface(edges, good, edges.deep_white, measured.white),
+        half_mm=_half_mm(edges),
+    )
+
+
+def _half_mm(edges: CodeEdges) -> float:
+    return edges.module_mm * len(edges.modules) / 2
+
+
+@lru_cache(maxsize=16)
+def _bases(edges: CodeEdges) -> tuple[Array, Array]:
+    """Basis at the edges and its derivative along their normals [1/mm], both shape (6, n)."""
+    half_mm = _half_mm(edges)
+    x, y = (edges.points_mm / half_mm).T
+    zero, one = np.zeros_like(x), np.ones_like(x)
+    by_x = np.stack((zero, one, zero, 2 * x, y, zero))
+    by_y = np.stack((zero, zero, one, zero, x, 2 * y))
+    normal_x, normal_y = (edges.normals / half_mm).T
+    both = _basis(x, y), by_x * normal_x + by_y * normal_y
+    for array in both:
+        array.flags.writeable = False  # they are shared through the cache
+    return both
 
 
 def _basis(x: Array, y: Array) -> Array:
-    return np.column_stack((np.ones_like(x), x, y, x * x, x * y, y * y))
+    return np.stack((np.ones_like(x), x, y, x * x, x * y, y * y))
 
 
-def _surface(basis: Array, values: Array) -> Array:
+def _surface(
+    edges: CodeEdges, good: NDArray[np.bool_], deep: NDArray[np.bool_], grey: Array
+) -> Array:
     """Least squares, repeated without what lies far off."""
-    kept = np.ones(len(values), dtype=np.bool_)
-    for _ in range(2):
-        coefficients = np.linalg.solve(basis[kept].T @ basis[kept], basis[kept].T @ values[kept])
-        misses = np.abs(values - basis @ coefficients)
-        limit = _OUTLIER_MADS * max(median(misses), 1.0)
-        if np.count_nonzero(misses < limit) < _LEAST_EDGES // 2:
-            break
-        kept = misses < limit
+    chosen = good & deep
+    if np.count_nonzero(chosen) < _LEAST_EDGES:
+        chosen = good
+    basis, values = _bases(edges)[0][:, chosen], grey[chosen]
+    coefficients = np.linalg.solve(basis @ basis.T, basis @ values)
+    misses = np.abs(values - coefficients @ basis)
+    kept = misses < _OUTLIER_MADS * max(median(misses), 1.0)
+    if _LEAST_EDGES // 2 <= np.count_nonzero(kept) < len(values):
+        basis = basis[:, kept]
+        coefficients = np.linalg.solve(basis @ basis.T, basis @ values[kept])
     return np.asarray(coefficients, dtype=np.float64)

@@ -27,12 +27,12 @@ class LightPicture(NamedTuple):
 
     Attributes:
         light: 0 (black) to 255 (white), shape (height, width) of the part.
-        left_top_px: Its first pixel in the whole picture.
+        left_top_px: Its first pixel in the whole picture, shape (2,).
         middle_row: Middle of the whole picture.
     """
 
     light: NDArray[np.float32]
-    left_top_px: tuple[int, int]
+    left_top_px: NDArray[np.intp]
     middle_row: float
 
 
@@ -59,7 +59,7 @@ def light_around(
         right, bottom = np.clip(np.ceil(high + margin), 1, (width, height)).astype(int)
     part = image[top : max(bottom, top + 1), left : max(right, left + 1)]
     light = np.asarray(cv2.LUT(part, _LIGHT), dtype=np.float32)
-    return LightPicture(light, (int(left), int(top)), (height - 1) / 2)
+    return LightPicture(light, np.array((left, top), dtype=np.intp), (height - 1) / 2)
 
 
 def _tone_curve() -> NDArray[np.float32]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +55,10 @@ class RobustStep:
 
 
 def robust_step(
-    measured: EdgeOffsets, spread_px: Array, by_spread: Array, upright: NDArray[np.bool_]
+    measured: EdgeOffsets,
+    spread_px: Array,
+    by_others: Array,
+    upright: NDArray[np.bool_],
 ) -> RobustStep | None:
     """Solve for the step, beginning without weights and then with Tukey's.
 
@@ -67,7 +72,7 @@ def robust_step(
     Args:
         measured: Edges as the current pose sees them.
         spread_px: Current edge spread at each of them, shape (n,).
-        by_spread: Its derivative by the numbers that describe it, shape (n, s), and by whatever
+        by_others: Its derivative by the numbers that describe it, shape (s, n), and by whatever
             else is unknown.
         upright: Which edges run along the label's y axis, shape (n,).
 
@@ -79,32 +84,61 @@ def robust_step(
         return None
     enough = _LEAST_CONTRAST * median(measured.contrast[rising])
     used = rising & (measured.contrast > enough)
-    offsets = measured.offset_px[used] - spread_px[used]
-    columns = np.concatenate((measured.by_pose.T, by_spread.T))[:, used]
-    columns *= measured.gain[used]
-    design = columns.T
+    offsets = (measured.offset_px - spread_px)[used]
+    columns = np.concatenate((measured.by_pose, by_others)) * measured.gain
+    columns = columns.take(np.flatnonzero(used), axis=1)
     # The error of a centroid is that of the light over the contrast.
     contrast = measured.contrast[used]
     faintness = np.maximum(median(contrast) / contrast, _LEAST_FAINTNESS)
     directions = [np.flatnonzero(way) for way in (upright[used], ~upright[used])]
-    weights, scale_px = np.ones(len(offsets)), np.ones(len(offsets))
+    weighing = _Weighing(np.ones(len(offsets)), np.ones(len(offsets)), 1.0)
     for number in range(_REWEIGHTINGS + 1):
-        weighted = columns * (weights / scale_px**2)
+        weighted = columns * (weighing.weights / weighing.scale_px**2)
         try:
-            step: Array = np.linalg.solve(weighted @ design, weighted @ offsets).astype(np.float64)
+            solution = np.linalg.solve(weighted @ columns.T, weighted @ offsets)
         except np.linalg.LinAlgError:
             return None
-        residuals = offsets - design @ step
+        step: Array = np.asarray(solution, dtype=np.float64)
+        residuals = offsets - step @ columns
         if number == _REWEIGHTINGS:
             break
-        for way in directions:
-            if len(way):
-                scale = 1.4826 * median(np.abs(residuals[way]) / faintness[way])
-                scale_px[way] = max(scale, _SMALLEST_SCALE_PX) * faintness[way]
-        relative2 = (residuals / (_TUKEY * scale_px)) ** 2
-        inside = relative2 < 1
-        if np.count_nonzero(inside) < LEAST_EDGES:
+        weighed = _weigh(residuals, faintness, directions)
+        if weighed is None:
             return None
-        weights = np.where(inside, (1 - relative2) ** 2, 0.0)
-    efficiency = float(np.sum(((1 - relative2) * (1 - 5 * relative2))[inside])) / len(offsets)
-    return RobustStep(step, design, residuals, weights, scale_px, used, max(efficiency, 0.2))
+        weighing = weighed
+    return RobustStep(
+        step=step,
+        design=columns.T,
+        residuals=residuals,
+        weights=weighing.weights,
+        scale_px=weighing.scale_px,
+        used=used,
+        efficiency=weighing.efficiency,
+    )
+
+
+class _Weighing(NamedTuple):
+    """Weights, scales and efficiency as of ``RobustStep``."""
+
+    weights: Array
+    scale_px: Array
+    efficiency: float
+
+
+def _weigh(
+    residuals: Array, faintness: Array, directions: Sequence[NDArray[np.intp]]
+) -> _Weighing | None:
+    """Tukey's weights; None where hardly any edge is left."""
+    scale_px = np.ones(len(residuals))
+    sizes = np.abs(residuals)
+    for way in directions:
+        if len(way):
+            scale = 1.4826 * median(sizes[way] / faintness[way])
+            scale_px[way] = max(scale, _SMALLEST_SCALE_PX) * faintness[way]
+    rest = np.maximum(1 - (residuals / (_TUKEY * scale_px)) ** 2, 0.0)
+    inside = rest > 0
+    if np.count_nonzero(inside) < LEAST_EDGES:
+        return None
+    # Derivative of the score: (1 - q)(1 - 5 q) with q = 1 - rest.
+    efficiency = float(rest @ (5 * rest - 4)) / len(residuals)
+    return _Weighing(rest * rest, scale_px, max(efficiency, 0.2))

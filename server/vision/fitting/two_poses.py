@@ -17,7 +17,7 @@ from server.vision.errors import AmbiguousTiltError, FitFailedError
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.edge_fit import Approach, EdgeFit, approach, finish
 from server.vision.fitting.light_picture import light_around
-from server.vision.projection import Array, perturbed, rotation_vector
+from server.vision.projection import Array, rotation_vector
 
 SAME_POSE_RAD = math.radians(1.0)
 """Two starts that lead to poses turned by less than this lead to the same pose."""
@@ -66,7 +66,7 @@ def fit_best(
         if came is None or any(_is_same(came, other) for other in near):
             continue
         near.append(came)
-        if _is_plain(camera, came.T_camera_label, came.rms_px, edges):
+        if is_plain(camera, came.T_camera_label, came.rms_px, edges):
             near = [came]
             break
     near.sort(key=lambda came: came.rms_px)
@@ -77,7 +77,7 @@ def fit_best(
         raise FitFailedError("Too few edges are visible, or the fit does not settle.")
     best = found[0]
     for other in found[1:]:
-        if _turn_rad(best.T_camera_label, other.T_camera_label) < SAME_POSE_RAD:
+        if turn_rad(best.T_camera_label, other.T_camera_label) < SAME_POSE_RAD:
             continue
         evidence = 2 * best.edge_count * math.log(other.rms_px / best.rms_px)
         excess_px2 = other.rms_px**2 - best.rms_px**2
@@ -87,52 +87,16 @@ def fit_best(
     return best
 
 
-def may_be_opposite(
-    image: NDArray[np.uint8],
-    camera: CameraModel,
-    edges: CodeEdges,
-    fit: EdgeFit,
-    *,
-    inverted: bool = False,
-) -> bool:
-    """Whether the opposite tilt explains the picture about as well as a fit from one start does.
-
-    Arguments as of ``fit_best``.
-    """
-    pose = fit.T_camera_label
-    if _is_plain(camera, pose, fit.rms_px, edges):
-        return False
-    opposite = _opposite(pose)
-    if _turn_rad(opposite, pose) < SAME_POSE_RAD:
-        return False
-    picture = light_around(image, camera, opposite, edges)
-    came = approach(picture, camera, edges, opposite, inverted=inverted)
-    if came is None or _turn_rad(came.T_camera_label, pose) < SAME_POSE_RAD:
-        return False
-    return came.rms_px < CLEARLY_WORSE * fit.rms_px
-
-
-def _opposite(pose: Array) -> Array:
-    """The pose with its normal mirrored at the line of sight."""
-    sight = pose[:3, 3] / np.linalg.norm(pose[:3, 3])
-    normal = pose[:3, 2]
-    axis = np.cross(normal, sight)
-    sine = float(np.linalg.norm(axis))
-    if sine == 0.0:
-        return pose
-    angle = 2 * math.atan2(sine, float(normal @ sight))
-    return perturbed(pose, np.concatenate((axis * (angle / sine), np.zeros(3))))
-
-
 def _is_same(one: Approach, other: Approach) -> bool:
-    return _turn_rad(one.T_camera_label, other.T_camera_label) < SAME_POSE_RAD
+    return turn_rad(one.T_camera_label, other.T_camera_label) < SAME_POSE_RAD
 
 
-def _turn_rad(one: Array, other: Array) -> float:
+def turn_rad(one: Array, other: Array) -> float:
+    """Angle of the rotation from one pose to another, both shape (4, 4)."""
     return float(np.linalg.norm(rotation_vector(one[:3, :3] @ other[:3, :3].T)))
 
 
-def _is_plain(camera: CameraModel, pose: Array, rms_px: float, edges: CodeEdges) -> bool:
+def is_plain(camera: CameraModel, pose: Array, rms_px: float, edges: CodeEdges) -> bool:
     """Whether the opposite tilt would have left far larger residuals than a pose does.
 
     Turning the tilt round moves a corner by about 2 f (size / 2)^2 sin(tilt) / z^2.

@@ -2,7 +2,8 @@
 
 Run as ``python -m tests.bench.vision [--frames N] [--quick] [--out FOLDER]``. It prints a table
 and, with ``--out``, writes it there as vision.md with a plot vision.svg. Times are processor time
-of one thread, so other programs on the machine disturb them little, but they do.
+of one thread, so other programs on the machine disturb them little, but they do. The AprilTag
+library takes part if pupil-apriltags is installed.
 """
 
 from __future__ import annotations
@@ -137,7 +138,8 @@ def main() -> None:
     bench = Bench(camera)
     rows: list[str] = []
     groups: dict[tuple[str, str], list[Scores]] = defaultdict(list)
-    points: dict[str, list[tuple[float, float]]] = defaultdict(list)
+    lateral: dict[str, list[tuple[float, float]]] = defaultdict(list)
+    depth: dict[str, list[tuple[float, float]]] = defaultdict(list)
 
     def put(line: str) -> None:
         rows.append(line)
@@ -152,15 +154,21 @@ def main() -> None:
             groups[data.group, name].append(score)
         if data.group == "nominal" and data.size_mm == 60.0:
             for name, score in scores.items():
-                points[name] += zip(score.ranges_mm, score.lateral_mm.tolist(), strict=True)
+                lateral[name] += zip(score.ranges_mm, score.lateral_mm.tolist(), strict=True)
+                depth[name] += zip(score.ranges_mm, score.depth_mm.tolist(), strict=True)
     for (group, name), parts in groups.items():
-        put(row(f"all {group}", "", name, merged(parts)))
+        if len(parts) > 1:
+            put(row(f"all {group}", "", name, merged(parts)))
     put(full_field(frames))
     put(standstill(camera, max(frames // 4, 3)))
     if arguments.out is not None:
         arguments.out.mkdir(parents=True, exist_ok=True)
         (arguments.out / "vision.md").write_text(document(rows, frames), encoding="utf-8")
-        picture = error_plot("Lateral error, 60 mm label, nominal", points)
+        panels = {
+            "Error sideways, mm: 60 mm label, nominal": lateral,
+            "Error of the depth, mm": depth,
+        }
+        picture = error_plot(panels)
         (arguments.out / "vision.svg").write_text(picture, encoding="utf-8")
 
 

@@ -21,7 +21,8 @@ class DataSet:
     """Pictures of one kind.
 
     Attributes:
-        group: "nominal", "hard" (what the figures of merit are stated for) or "damaged".
+        group: "nominal", "hard" (what the figures of merit are stated for), "damaged", or
+            "wrong size", which no single picture can tell.
         name: What is special about it.
         range_mm: Distances.
         size_mm: Side of the code.
@@ -65,7 +66,7 @@ DAMAGED = (
     DataSet("damaged", "partly covered", WHOLE, spoil=scenes.partly_covered),
     DataSet("damaged", "a corner lifted", WHOLE, spoil=scenes.lifted),
     DataSet("damaged", "bowed", WHOLE, spoil=scenes.bowed),
-    DataSet("damaged", "printed 3% small", WHOLE, spoil=scenes.misprinted),
     DataSet("damaged", "other codes in view", WHOLE, spoil=scenes.accompanied),
 )
-ALL = NOMINAL + HARD + DAMAGED
+WRONG_SIZE = (DataSet("wrong size", "printed 3% small", WHOLE, spoil=scenes.misprinted),)
+ALL = NOMINAL + HARD + DAMAGED + WRONG_SIZE

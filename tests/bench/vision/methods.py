@@ -99,18 +99,18 @@ def compared(camera: CameraModel) -> dict[str, Method]:
 
 
 def tag_library(camera: CameraModel) -> Method | None:
-    """The reference implementation of AprilTag, if its Python package is installed."""
+    """The reference implementation of AprilTag, if pupil-apriltags is installed."""
     try:
-        library = importlib.import_module("apriltag")  # not a requirement of the project
+        library = importlib.import_module("pupil_apriltags")  # not a requirement of the project
     except ImportError:
         return None
-    detector = library.apriltag("tag36h11")
+    detector = library.Detector(families="tag36h11", nthreads=1, quad_decimate=1.0)
 
     def read(image: Image, size_mm: float) -> Array | None:
         for found in detector.detect(image):
-            if f"tag36h11:{found['id']}" == TAG:
+            if f"tag36h11:{found.tag_id}" == TAG:
                 # Its corners run the other way round, and its tag stands on its head.
-                corners = np.roll(np.asarray(found["lb-rb-rt-lt"])[::-1], 2, axis=0) - 0.5
+                corners = np.roll(found.corners[::-1], 2, axis=0) - 0.5
                 starts = start_poses(camera, corners, size_mm)
                 return starts[0].T_camera_label if starts else None
         return None

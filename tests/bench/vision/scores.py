@@ -58,6 +58,14 @@ class Scores:
         return np.array([abs(error[5]) for error in self.errors])
 
     @property
+    def depth_bias_mm(self) -> tuple[float, float] | None:
+        """Mean of the signed depth errors, and its standard error; None for fewer than two."""
+        if len(self.errors) < 2:
+            return None
+        signed = np.array([error[5] for error in self.errors])
+        return float(signed.mean()), float(signed.std(ddof=1) / np.sqrt(len(signed)))
+
+    @property
     def tilt_deg(self) -> Array:
         return np.array([np.degrees(np.hypot(error[0], error[1])) for error in self.errors])
 

@@ -72,7 +72,7 @@ def test_nobody_there(address: str) -> None:
 
 
 def test_an_address_is_needed() -> None:
-    with pytest.raises(CameraMissingError, match=r"set camera\.stream\.url"):
+    with pytest.raises(CameraMissingError, match=r"set camera\.link\.stream\.url"):
         StreamSource(StreamSettings()).open()
 
 

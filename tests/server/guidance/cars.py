@@ -29,6 +29,7 @@ def estimate(
     turned_deg: float = 0.0,
     sigma_mm: float = 0.5,
     flawed: bool = False,
+    faces_robot: bool = True,
 ) -> CarEstimate:
     """A car, by default standing in the best place."""
     place = [
@@ -49,6 +50,7 @@ def estimate(
         turned_rad=math.radians(turned_deg),
         distance_mm=300.0,
         flawed=flawed,
+        faces_robot=faces_robot,
     )
 
 
@@ -60,6 +62,7 @@ def sighting(
     lean: tuple[float, float] = (0.0, 0.0),
     lean_sigma_rad: float = 0.001,
     vehicle_id: str = "zoe",
+    faces_robot: bool | None = None,
 ) -> Sighting:
     """The socket in one picture."""
     pose = np.eye(4)
@@ -73,4 +76,5 @@ def sighting(
         lean=np.array(lean),
         lean_covariance=lean_sigma_rad**2 * np.eye(2),
         from_camera_mm=pose[:3, 3] - CAMERA_MM,
+        faces_robot=faces_robot,
     )

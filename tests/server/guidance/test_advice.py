@@ -225,14 +225,22 @@ class TestSteadiness:
     place=st.tuples(st.floats(300, 1000), st.floats(0, 600), st.floats(205, 1500)),
     speed_mm_s=st.sampled_from([0.0, -150.0, 20.0, 400.0]),
     skew_deg=st.floats(0, 12),
-    faces=st.sampled_from(["robot", "away"]),
+    faces_robot=st.booleans(),
 )
 def test_whatever_the_car_does_there_is_one_clear_word(
-    place: tuple[float, float, float], speed_mm_s: float, skew_deg: float, faces: str
+    place: tuple[float, float, float], speed_mm_s: float, skew_deg: float, faces_robot: bool
 ) -> None:
     x_mm, y_mm, z_mm = place
-    adviser = an_adviser(driver_faces=faces)
-    car = estimate(x_mm, z_mm, y_mm, speed_mm_s=speed_mm_s, skew_deg=skew_deg, turned_deg=skew_deg)
+    adviser = an_adviser()
+    car = estimate(
+        x_mm,
+        z_mm,
+        y_mm,
+        speed_mm_s=speed_mm_s,
+        skew_deg=skew_deg,
+        turned_deg=skew_deg,
+        faces_robot=faces_robot,
+    )
     advice = settled(adviser, car)
     assert advice.words.headline
     assert math.isfinite(advice.margin_mm or 0.0)
@@ -248,8 +256,9 @@ def test_whatever_the_car_does_there_is_one_clear_word(
 
 
 def test_who_backs_in_is_told_from_his_own_seat() -> None:
-    car = estimate(x_mm=EDGE_X_MM + 60.0, z_mm=700.0, speed_mm_s=30.0)
-    facing = {step.direction for step in settled(an_adviser(), car).steps}
-    backing = {step.direction for step in settled(an_adviser(driver_faces="away"), car).steps}
-    assert facing == {Direction.FORWARD, Direction.LEFT}
-    assert backing == {Direction.BACK, Direction.RIGHT}
+    def told(*, faces_robot: bool) -> set[Direction]:
+        car = estimate(EDGE_X_MM + 60.0, 700.0, speed_mm_s=30.0, faces_robot=faces_robot)
+        return {step.direction for step in settled(an_adviser(), car).steps}
+
+    assert told(faces_robot=True) == {Direction.FORWARD, Direction.LEFT}
+    assert told(faces_robot=False) == {Direction.BACK, Direction.RIGHT}

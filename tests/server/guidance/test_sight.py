@@ -67,6 +67,16 @@ def test_a_known_label_gives_the_socket(shot: Shot) -> None:
     assert np.all(np.linalg.eigvalsh(found.lean_covariance) > 0)
 
 
+@pytest.mark.parametrize(("faces", "seen"), [("robot", True), ("away", False), (None, None)])
+def test_a_sighting_knows_how_its_vehicle_comes_in(
+    shot: Shot, faces: str | None, seen: bool | None
+) -> None:
+    vehicles = [v.model_copy(update={"driver_faces": faces}) for v in shot.vehicles]
+    found = Shot(shot.frame, shot.T_base_camera, vehicles, shot.truth_mm).look()
+    assert isinstance(found, Sighting)
+    assert found.faces_robot is seen
+
+
 def test_labels_of_nobody_known_here(shot: Shot) -> None:
     vehicles = [
         v.model_copy(update={"label_payload": "PP2:other:AAAAAAAAAA"}) for v in shot.vehicles

@@ -116,3 +116,13 @@ def test_the_skew_of_a_standing_car_averages_but_not_below_the_floor() -> None:
     assert LEAN_SIGMA < car.skew_sigma_rad < 0.6 * moving.skew_sigma_rad
     assert car.skew_rad == pytest.approx(0.07, abs=3 * car.skew_sigma_rad)
     assert car.turned_rad == pytest.approx(-0.07, abs=3 * car.skew_sigma_rad)
+
+
+@pytest.mark.parametrize("faces_robot", [True, False])
+def test_a_vehicle_of_its_own_way_is_not_asked_the_settings(faces_robot: bool) -> None:
+    other = SETTINGS.guidance.model_copy(
+        update={"driver_faces": "away" if faces_robot else "robot"}
+    )
+    assert CarTrack(sighting(0.0, START), other).estimate.faces_robot is not faces_robot
+    own = sighting(0.0, START, faces_robot=faces_robot)
+    assert CarTrack(own, other).estimate.faces_robot is faces_robot

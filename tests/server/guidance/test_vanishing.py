@@ -25,10 +25,12 @@ def direction(
     """For a label at a place relative to the camera that has come there at a speed."""
     velocity = np.array(velocity_mm_s)
     end = CAMERA_MM + np.array(label_mm) - TO_LABEL_MM
-    track = CarTrack(sighting(0.0, end - velocity * 1.0), SETTINGS.guidance)
+    faces = {"driver_faces": "robot" if faces_robot else "away"}
+    settings = SETTINGS.guidance.model_copy(update=faces)
+    track = CarTrack(sighting(0.0, end - velocity * 1.0), settings)
     for t_s in np.linspace(0.1, 1.0, 10).tolist():
         track.take(sighting(t_s, end - velocity * (1.0 - t_s)))
-    vanishing = Vanishing(SETTINGS.camera.optics, SETTINGS.geometry, faces_robot=faces_robot)
+    vanishing = Vanishing(SETTINGS.camera.optics, SETTINGS.geometry)
     return vanishing.direction(track, 1.0, T_BASE_CAMERA, JOINTS)
 
 

@@ -44,6 +44,22 @@ def test_edges_lie_between_black_and_white_and_point_to_the_white() -> None:
     assert len(edges.points_mm) == changes
 
 
+def test_edges_know_how_deep_their_black_and_white_are() -> None:
+    modules = np.array([[1, 1, 0, 1], [1, 0, 0, 1], [0, 1, 1, 0], [1, 0, 1, 1]], dtype=np.bool_)
+    edges = code_edges(modules, 4.0)  # one module is one millimetre
+    framed = np.pad(modules, 2)
+
+    def is_black(places: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> list[bool]:
+        cells = np.floor(places + 4.0).astype(int)
+        return [bool(framed[y, x]) for x, y in cells]
+
+    assert edges.deep_black.tolist() == is_black(edges.points_mm - 1.5 * edges.normals)
+    assert edges.deep_white.tolist() == [
+        not black for black in is_black(edges.points_mm + 1.5 * edges.normals)
+    ]
+    assert 0 < np.count_nonzero(edges.deep_black) < len(edges.deep_black)
+
+
 def test_large_codes_are_thinned_evenly() -> None:
     modules = label_modules("x" * 400)
     edges = code_edges(modules, 60.0)

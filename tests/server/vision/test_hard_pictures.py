@@ -59,3 +59,9 @@ def test_motion_longer_than_a_module_makes_the_pose_uncertain_not_wrong() -> Non
     assert distances.max() < CHI2_9999_OF_SIX
     assert np.abs(found[:, 3]).max() < 0.4
     assert np.abs(sharp[:, 3]).max() < 0.03
+
+
+def test_blur_does_not_move_the_depth() -> None:
+    """Lone modules get neither black nor white in it, the code's border does: no light grows."""
+    found, _ = errors([Shot(blur_px=2.2)] * 6, pose((6.0, -4.0, 300.0), (4.0, -5.0, 8.0)))
+    assert abs(float(found[:, 5].mean())) < 0.025

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -165,7 +166,9 @@ def test_a_person_gets_a_readable_line(camera_file: Path, label_file: Path, tmp_
     assert result.exit_code == 1
     good, bad = result.stdout.splitlines()
     assert PAYLOAD in good
-    assert "z 290.0" in good
+    seen = re.search(r" z (\S+) mm", good)
+    assert seen is not None
+    assert float(seen[1]) == pytest.approx(290.0, abs=0.02)
     assert "none.png" in bad
 
 

@@ -7,6 +7,9 @@ import pytest
 import segno
 
 from drivers.camera import CameraModel
+from drivers.simulator.camera.conditions import Conditions
+from drivers.simulator.camera.imaging import ImagingParameters
+from drivers.simulator.camera.renderer import Renderer
 from server.vision import Gates, Locator, PoseSource
 from server.vision.errors import (
     EdgesDisagreeError,
@@ -119,6 +122,20 @@ def test_a_moving_label_is_located_where_it_is_in_the_middle_of_the_exposure(
     assert np.abs(pose_error(found.T_camera_label, HEAD_ON)[3:5]).max() < 0.03
     again = locator.locate(image, label_size_mm=SIZE_MM, predicted=HEAD_ON, moving=True)
     assert np.abs(pose_error(again.T_camera_label, HEAD_ON)[3:5]).max() < 0.03
+
+
+@pytest.mark.parametrize("place", [(-90.0, 40.0, 300.0), (100.0, -60.0, 300.0)])
+def test_a_bowed_label_that_could_move_but_stands_is_as_far_away(
+    place: tuple[float, float, float],
+) -> None:
+    """Shear, tilt and bow look alike beside the axis: each needs unknowns of its own."""
+    bowed = Renderer(OPTICS, ImagingParameters(), seed=3, conditions=Conditions())
+    assert abs(bowed.label_condition.bow_mm) > 0.1
+    image = bowed.picture(view(pose(place, (2.0, -3.0, 1.0))), 1)
+    still = Locator(OPTICS).locate(image, label_size_mm=SIZE_MM)
+    free = Locator(OPTICS).locate(image, label_size_mm=SIZE_MM, moving=True)
+    depths_mm = still.T_camera_label[2, 3], free.T_camera_label[2, 3]
+    assert depths_mm[1] == pytest.approx(depths_mm[0], rel=5e-4)
 
 
 def test_a_wrong_label_size_scales_the_pose_and_nothing_else() -> None:

@@ -60,13 +60,13 @@ def test_derivative_by_the_pose_is_the_slope_of_the_projection(
 
 def test_derivative_by_the_point_is_the_slope_of_the_projection() -> None:
     T_camera_label = pose((25.0, -31.0, 240.0), (12.0, -23.0, 100.0))
-    by_point = project(CAMERA, T_camera_label, POINTS).by_point
+    by_place = project(CAMERA, T_camera_label, POINTS).by_place
     for axis in range(3):
         ahead, behind = T_camera_label.copy(), T_camera_label.copy()
         ahead[axis, 3] += 1e-5
         behind[axis, 3] -= 1e-5
         slope = project(CAMERA, ahead, POINTS).pixels - project(CAMERA, behind, POINTS).pixels
-        np.testing.assert_allclose(by_point[:, :, axis], slope / 2e-5, atol=1e-6)
+        np.testing.assert_allclose(by_place[:, axis].T, slope / 2e-5, atol=1e-6)
 
 
 @given(u=st.floats(0, 1639), v=st.floats(0, 1231))

@@ -1351,7 +1351,7 @@ export interface components {
             readonly detail: string;
             /**
              * Driver Faces
-             * @description Cars come in nose first, or backwards
+             * @description This car, or any, comes in nose first or backwards
              * @enum {string}
              */
             readonly driver_faces: "robot" | "away";
@@ -2589,6 +2589,11 @@ export interface components {
          */
         readonly Vehicle: {
             /**
+             * Driver Faces
+             * @description This car comes in nose first (robot) or backwards (away); null: as `guidance.driver_faces` says
+             */
+            readonly driver_faces?: ("robot" | "away") | null;
+            /**
              * Id
              * @description Chosen by the owner; stands in the QR label
              * @example zoe
@@ -2640,6 +2645,11 @@ export interface components {
          * @description What the owner says about a vehicle.
          */
         readonly VehicleSettings: {
+            /**
+             * Driver Faces
+             * @description This car comes in nose first (robot) or backwards (away); null: as `guidance.driver_faces` says
+             */
+            readonly driver_faces?: ("robot" | "away") | null;
             /**
              * Label Size Mm
              * @description Side of the code, quiet zone apart
