@@ -15,6 +15,7 @@ from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
 from drivers.simulator.following import RobotFollower
 from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationError
+from server.access import Access
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
 from server.control.jog import DEAD_MAN_S, Jog
@@ -91,6 +92,9 @@ async def running(
         database = Database(folder)
         await database.open()
         stack.push_async_callback(database.close)
+        access = Access(database, calendar, settings.access, speed)
+        await access.start()
+        stack.push_async_callback(access.close)
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
@@ -150,6 +154,7 @@ async def running(
             calendar=calendar,
             started_at=calendar.now(),
             database=database,
+            access=access,
             jobs=jobs,
             vehicles=vehicles,
             supervisor=supervisor,

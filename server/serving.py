@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 
 import uvicorn
 
+from server.announcement import findable, page_address, print_invitation
 from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
@@ -81,11 +82,22 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
     ) as services:
         app = create_app(lambda: contextlib.nullcontext(services), twin)
         config = _uvicorn_config(app, settings.clock_speed)
-        server = _Server(config, _address(listener), when_ready=twin.start)
-        try:
-            await server.serve(sockets=[listener])
-        finally:
-            await asyncio.to_thread(twin.stop)
+        page = page_address("http", settings.server.host, listener.getsockname()[1])
+        secret = None
+        if not services.access.register.has_owner:
+            secret = await services.access.owner_invitation()
+
+        def ready() -> None:
+            if secret is not None:
+                print_invitation(page, secret, sys.stdout)
+            twin.start()
+
+        server = _Server(config, page, when_ready=ready)
+        with findable(settings.storage.data_dir, page):
+            try:
+                await server.serve(sockets=[listener])
+            finally:
+                await asyncio.to_thread(twin.stop)
 
 
 class _Server(uvicorn.Server):
@@ -158,8 +170,3 @@ def _listen(host: str, port: int) -> socket.socket:
             raise PortInUseError(f"Another program listens on {host} port {port}.") from error
         raise AddressError(f"Cannot listen on {host} port {port}: {error.strerror}.") from error
     return listener
-
-
-def _address(listener: socket.socket) -> str:
-    host, port = listener.getsockname()[:2]
-    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"

@@ -7,12 +7,25 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 
-from fastapi import APIRouter, FastAPI
+from fastapi import APIRouter, FastAPI, WebSocket
 
+from server.access.operations import twin_messages
 from server.api.contract import describe
+from server.api.gate import Gate, SecurityHeaders, caller_of
 from server.api.pages import pages_router
 from server.api.problems import ANY_PROBLEM, install_handlers
-from server.api.routes import camera, health, jobs, live, recordings, robot, station, vehicles
+from server.api.routes import (
+    access,
+    camera,
+    health,
+    jobs,
+    live,
+    people,
+    recordings,
+    robot,
+    station,
+    vehicles,
+)
 from server.api.twin import twin_router
 from server.services import Services
 from server.version import VERSION
@@ -48,12 +61,29 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         redoc_url=None,
     )
     api = APIRouter(prefix=PREFIX, responses=ANY_PROBLEM)
-    for module in (health, robot, jobs, recordings, vehicles, station, camera, live):
+    for module in (
+        health,
+        robot,
+        jobs,
+        recordings,
+        vehicles,
+        station,
+        camera,
+        live,
+        access,
+        people,
+    ):
         api.include_router(module.router)
     app.include_router(api)
     if twin is not None:
-        app.include_router(twin_router(twin))
+        app.include_router(twin_router(twin, allowed_client_messages=_twin_messages))
     app.include_router(pages_router(STATIC))
+    app.add_middleware(Gate)
     install_handlers(app)
+    app.add_middleware(SecurityHeaders)
     describe(app)
     return app
+
+
+def _twin_messages(socket: WebSocket) -> frozenset[str]:
+    return twin_messages(caller_of(socket).rights)

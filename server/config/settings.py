@@ -7,6 +7,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
+from server.config.access import AccessSettings
 from server.config.camera import CameraSettings
 from server.config.insertion import InsertionSettings
 from server.config.logs import LoggingSettings
@@ -40,6 +41,7 @@ class Settings(BaseSettings):
     )
 
     server: ServerSettings = ServerSettings()
+    access: AccessSettings = AccessSettings()
     storage: StorageSettings = StorageSettings()
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()

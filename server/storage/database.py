@@ -13,6 +13,7 @@ from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
+from server.storage import access_tables  # noqa: F401 - makes its tables known to Base
 from server.storage.errors import (
     DatabaseBrokenError,
     DatabaseVersionError,
