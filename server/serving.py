@@ -85,7 +85,7 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         page = page_address("http", settings.server.host, listener.getsockname()[1])
         secret = None
         if not services.access.register.has_owner:
-            secret = await services.access.owner_invitation()
+            secret = await services.access.pairing.invite_owner(address="")
 
         def ready() -> None:
             if secret is not None:

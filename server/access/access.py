@@ -6,16 +6,13 @@ from datetime import timedelta
 
 from server.access.audit import BURST_S, AuditLog
 from server.access.limits import PER_S, Attempts
-from server.access.pairing import FIRST_OWNER, FIRST_VALID, Pairing
+from server.access.pairing import Pairing
 from server.access.passkeys import Passkeys
 from server.access.register import SEEN_EVERY_S, Register
-from server.access.rights import Role
 from server.access.store import AccessStore
 from server.config.access import AccessSettings
 from server.storage.database import Database
 from server.timing import Calendar
-
-MACHINE = "the machine itself"
 
 
 class Access:
@@ -57,14 +54,3 @@ class Access:
         """Write what was not written yet."""
         await self.register.close()
         await self.audit.close()
-
-    async def owner_invitation(self, *, address: str = "", valid: timedelta = FIRST_VALID) -> str:
-        """The secret of an invitation that makes a browser an owner's.
-
-        For whoever holds the machine in hand: the terminal it was started from, its own screen,
-        its command line.
-        """
-        _, secret = await self.pairing.invite(
-            name=FIRST_OWNER, role=Role.OWNER, created_by=MACHINE, address=address, valid=valid
-        )
-        return secret

@@ -14,6 +14,7 @@ from server.access.rights import Role
 from server.access.store import AccessStore
 from server.access.tokens import LONGEST, digest, new_invitation
 
+MACHINE = "the machine itself"
 FIRST_OWNER = "Owner"
 FIRST_VALID = timedelta(days=1)
 VALID = timedelta(minutes=15)
@@ -88,6 +89,18 @@ class Pairing:
             role=role.value,
         )
         return invitation, secret
+
+    async def invite_owner(self, *, address: str, valid: timedelta = FIRST_VALID) -> str:
+        """The secret of an invitation that makes a browser an owner's.
+
+        For whoever holds the machine in hand: the terminal it was started from, its own screen,
+        its command line. Only the newest of these is valid.
+        """
+        await self._store.withdraw_all(MACHINE)
+        _, secret = await self.invite(
+            name=FIRST_OWNER, role=Role.OWNER, created_by=MACHINE, address=address, valid=valid
+        )
+        return secret
 
     async def pair(self, secret: str, user_agent: str, address: str) -> tuple[Person, Device, str]:
         """Use an invitation.

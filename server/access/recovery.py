@@ -42,4 +42,4 @@ async def invite_owner(folder: Path, settings: AccessSettings, valid: timedelta 
         StorageError: the folder or its database cannot be used.
     """
     async with opened(folder, settings) as access:
-        return await access.owner_invitation(valid=valid)
+        return await access.pairing.invite_owner(address="", valid=valid)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime
 
-from sqlalchemy import select, update
+from sqlalchemy import delete, select, update
 from sqlalchemy.orm import Session
 
 from server.access.model import ApiKey, Device, Invitation, Passkey, Person
@@ -101,6 +101,17 @@ class AccessStore:
                     used_at=invitation.used_at,
                 )
             )
+
+        await self._database.run(work)
+
+    async def withdraw_all(self, created_by: str) -> None:
+        """Forget every open invitation of somebody."""
+
+        def work(session: Session) -> None:
+            query = delete(InvitationRow).where(
+                InvitationRow.created_by == created_by, InvitationRow.used_at.is_(None)
+            )
+            session.execute(query)
 
         await self._database.run(work)
 

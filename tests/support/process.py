@@ -24,6 +24,7 @@ from server.access.recovery import invite_owner
 from server.config.access import AccessSettings
 
 READY = "PlugPilot is ready: "
+INVITATION = "Pair your browser, once: "
 START_TIMEOUT_S = 60.0
 STOP_TIMEOUT_S = 10.0
 

@@ -1,6 +1,6 @@
 import { render } from "preact";
-import { App } from "./app";
-import { connect } from "./live/page";
+import { Door } from "./access/door";
+import { begin } from "./access/session";
 import "./style/tokens.css";
 import "./style/page.css";
 import "./style/controls.css";
@@ -9,8 +9,9 @@ import "./style/steps.css";
 import "./style/views.css";
 import "./style/picture.css";
 import "./style/history.css";
+import "./access/access.css";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("index.html has no element #app");
-connect();
-render(<App />, root);
+render(<Door />, root);
+void begin();

@@ -99,7 +99,7 @@ async def show_owner_invitation(request: Request, services: ServicesDep) -> Issu
     caller = caller_of(request)
     if not _is_own_screen(services, caller):
         raise ForbiddenError("Only the robot's own screen may, and only before it has an owner.")
-    secret = await services.access.owner_invitation(address=caller.address, valid=VALID)
+    secret = await services.access.pairing.invite_owner(address=caller.address, valid=VALID)
     return issued(request, services.settings.server, secret, services.calendar.now() + VALID)
 
 

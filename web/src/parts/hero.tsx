@@ -1,3 +1,5 @@
+import { may } from "@/access/session";
+import { say } from "@/access/words";
 import { store } from "@/live/page";
 import { pending, press, trouble } from "@/robot/actions";
 import type { Action } from "@/robot/describe";
@@ -20,7 +22,10 @@ export function Hero() {
           </p>
         )}
       </div>
-      <div class="hero-action">{action !== null && <ActionButtons action={action} />}</div>
+      <div class="hero-action">
+        {action !== null && may("operate") && <ActionButtons action={action} />}
+        {!may("operate") && <p class="soft">{say.watching}</p>}
+      </div>
       <TroubleNote />
     </section>
   );
