@@ -112,7 +112,7 @@ for _change in ("UPDATE", "DELETE"):
     event.listen(
         AuditRow.__table__,
         "after_create",
-        DDL(
+        DDL(  # type: ignore[no-untyped-call] # SQLAlchemy's
             f"CREATE TRIGGER audit_refuses_{_change.lower()} BEFORE {_change} ON audit "
             "BEGIN SELECT RAISE(ABORT, 'the audit trail is append-only'); END"
         ),
