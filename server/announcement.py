@@ -48,6 +48,12 @@ def print_invitation(page: str, secret: str, out: TextIO) -> None:
         out.flush()
 
 
+def print_root(page: str, fingerprint: str, out: TextIO) -> None:
+    """Say where phones get the root certificate, and how to know that it is the right one."""
+    print(f"Install on each phone, once: {page}/root.crt", file=out)
+    print(f"Its SHA-256 is {fingerprint}", file=out, flush=True)
+
+
 def goes_to_journal(out: TextIO) -> bool:
     """Whether systemd's journal keeps what is printed (systemd.exec(5), JOURNAL_STREAM)."""
     try:

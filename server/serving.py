@@ -14,12 +14,13 @@ from collections.abc import Callable, Iterator
 
 import uvicorn
 
-from server.announcement import findable, page_address, print_invitation
+from server.announcement import findable, page_address, print_invitation, print_root
 from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
 from server.timing import ScaledTimeLoop
+from server.tls import TlsFiles, tls_files
 from twin.scene import TwinHost
 
 SEND_BUFFER_BYTES = 32 * 1024
@@ -62,14 +63,15 @@ def serve(settings: Settings) -> None:
     )
     for chatty in ("uvicorn", "websockets"):
         logging.getLogger(chatty).setLevel(logging.WARNING)
+    tls = tls_files(settings)
     listener = _listen(settings.server.host, settings.server.port)
     # A real robot keeps real time; a simulated one waits for a machine that is too slow.
     factory = (lambda: ScaledTimeLoop(settings.clock_speed)) if settings.simulated else None
     with contextlib.closing(listener), asyncio.Runner(loop_factory=factory) as runner:
-        runner.run(_serve(settings, listener))
+        runner.run(_serve(settings, listener, tls))
 
 
-async def _serve(settings: Settings, listener: socket.socket) -> None:
+async def _serve(settings: Settings, listener: socket.socket, tls: TlsFiles | None) -> None:
     optics = settings.camera.optics
     twin = TwinHost(
         settings.geometry,
@@ -81,8 +83,10 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         settings, folder=settings.storage.data_dir, twin=twin, wait_for_robot=False
     ) as services:
         app = create_app(lambda: contextlib.nullcontext(services), twin)
-        config = _uvicorn_config(app, settings.clock_speed)
-        page = page_address("http", settings.server.host, listener.getsockname()[1])
+        config = _uvicorn_config(app, settings.clock_speed, tls)
+        page = page_address(
+            "http" if tls is None else "https", settings.server.host, listener.getsockname()[1]
+        )
         secret = None
         if not services.access.register.has_owner:
             secret = await services.access.pairing.invite_owner(address="")
@@ -90,6 +94,8 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
         def ready() -> None:
             if secret is not None:
                 print_invitation(page, secret, sys.stdout)
+            if tls is not None and tls.fingerprint is not None:
+                print_root(page, tls.fingerprint, sys.stdout)
             twin.start()
 
         server = _Server(config, page, when_ready=ready)
@@ -133,7 +139,7 @@ class _Server(uvicorn.Server):
             self._when_ready()
 
 
-def _uvicorn_config(app: object, speed: float) -> uvicorn.Config:
+def _uvicorn_config(app: object, speed: float, tls: TlsFiles | None) -> uvicorn.Config:
     """Time limits in the loop's time, which may run faster than the wall clock."""
     return uvicorn.Config(
         app,  # type: ignore[arg-type]
@@ -148,6 +154,8 @@ def _uvicorn_config(app: object, speed: float) -> uvicorn.Config:
         timeout_keep_alive=math.ceil(KEEP_ALIVE_S * speed),
         timeout_graceful_shutdown=math.ceil(SHUTDOWN_S * speed),
         server_header=False,
+        ssl_certfile=None if tls is None else tls.certificate,
+        ssl_keyfile=None if tls is None else tls.key,
     )
 
 

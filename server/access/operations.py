@@ -14,6 +14,7 @@ OPERATIONS: Mapping[str, Need] = {
     # pages
     "GET /": Need.ANYONE,
     "GET /assets/{name}": Need.ANYONE,
+    "GET /root.crt": Need.ANYONE,
     "GET /api/v1/openapi.json": Need.READ,
     # the 3D picture
     "GET /twin": Need.READ,

@@ -10,6 +10,7 @@ from pathlib import Path
 from fastapi import APIRouter, FastAPI, WebSocket
 
 from server.access.operations import twin_messages
+from server.api import root_certificate
 from server.api.contract import describe
 from server.api.gate import Gate, SecurityHeaders, caller_of
 from server.api.pages import pages_router
@@ -77,6 +78,7 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
     app.include_router(api)
     if twin is not None:
         app.include_router(twin_router(twin, allowed_client_messages=_twin_messages))
+    app.include_router(root_certificate.router)
     app.include_router(pages_router(STATIC))
     app.add_middleware(Gate)
     install_handlers(app)

@@ -18,6 +18,7 @@ from server.config.server import ServerSettings
 from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
+from server.config.tls import TlsSettings
 from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
@@ -42,6 +43,7 @@ class Settings(BaseSettings):
 
     server: ServerSettings = ServerSettings()
     access: AccessSettings = AccessSettings()
+    tls: TlsSettings = TlsSettings()
     storage: StorageSettings = StorageSettings()
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()
