@@ -19,6 +19,7 @@ from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.settings import Settings
+from server.connections import allow_many_files, guarded
 from server.timing import ScaledTimeLoop
 from server.tls import TlsFiles, tls_files
 from twin.scene import TwinHost
@@ -63,6 +64,7 @@ def serve(settings: Settings) -> None:
     )
     for chatty in ("uvicorn", "websockets"):
         logging.getLogger(chatty).setLevel(logging.WARNING)
+    allow_many_files()
     tls = tls_files(settings)
     listener = _listen(settings.server.host, settings.server.port)
     # A real robot keeps real time; a simulated one waits for a machine that is too slow.
@@ -144,6 +146,7 @@ def _uvicorn_config(app: object, speed: float, tls: TlsFiles | None) -> uvicorn.
     return uvicorn.Config(
         app,  # type: ignore[arg-type]
         loop="none",
+        http=guarded(speed),
         log_config=None,
         access_log=False,
         ws="websockets-sansio",
