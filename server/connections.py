@@ -94,7 +94,8 @@ class GuardedConnection(H11Protocol):
     def resume_writing(self) -> None:
         """The client takes again."""
         super().resume_writing()
-        self._stall_timer = _cancelled(self._stall_timer)
+        _stop(self._stall_timer)
+        self._stall_timer = None
 
     def cut(self) -> None:
         """End the connection now."""
@@ -109,7 +110,8 @@ class GuardedConnection(H11Protocol):
             return
         if self._is_busy():
             self.idle.discard(self)
-            self._head_timer = _cancelled(self._head_timer)
+            _stop(self._head_timer)
+            self._head_timer = None
         else:
             self._wait_for_head()
 
@@ -120,8 +122,10 @@ class GuardedConnection(H11Protocol):
 
     def _forget(self) -> None:
         self.idle.discard(self)
-        self._head_timer = _cancelled(self._head_timer)
-        self._stall_timer = _cancelled(self._stall_timer)
+        _stop(self._head_timer)
+        self._head_timer = None
+        _stop(self._stall_timer)
+        self._stall_timer = None
 
 
 def guarded(speed: float, max_idle: int = MAX_IDLE) -> type[GuardedConnection]:
@@ -143,6 +147,6 @@ def allow_many_files() -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
 
 
-def _cancelled(timer: asyncio.TimerHandle | None) -> None:
+def _stop(timer: asyncio.TimerHandle | None) -> None:
     if timer is not None:
         timer.cancel()

@@ -92,6 +92,19 @@ class Passkey:
     last_used_at: datetime | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where the page is, as its browser names it.
+
+    Attributes:
+        url: Such as https://robot.local:8443.
+        host: Such as robot.local, the name that passkeys belong to.
+    """
+
+    url: str
+    host: str
+
+
 CallerKind = Literal["person", "key", "machine", "unknown"]
 
 

@@ -32,7 +32,7 @@ from webauthn.helpers.structs import (
 
 from server.access.audit import AuditLog
 from server.access.errors import NoSuchEntryError, PasskeyError
-from server.access.model import Device, Passkey, Person
+from server.access.model import Device, Origin, Passkey, Person
 from server.access.pairing import device_name
 from server.access.register import Register, new_id
 from server.access.rights import NO_RIGHTS
@@ -41,19 +41,6 @@ RP_NAME = "PlugPilot"
 VALID = timedelta(minutes=5)
 MAX_OPEN = 256
 """Challenges that are open at a time; with more the oldest is forgotten."""
-
-
-@dataclass(frozen=True, slots=True)
-class Origin:
-    """Where the page is, as its browser names it.
-
-    Attributes:
-        url: Such as https://robot.local:8443.
-        host: Such as robot.local, the name that passkeys belong to.
-    """
-
-    url: str
-    host: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,7 @@ from fastapi import APIRouter, Response
 
 from server.api.dependencies import ServicesDep
 from server.api.errors import NotFoundError
-from server.tls import ROOT_FILE
-from server.tls.files import FOLDER
+from server.tls import FOLDER, ROOT_FILE
 
 router = APIRouter(include_in_schema=False)
 

@@ -16,15 +16,15 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-from server.tls.errors import CertificateError, ExposedKeyError
+from server.tls.errors import CertificateError
+from server.tls.places import ROOT_FILE
+from server.tls.private import require_private
 
-ROOT_FILE = "root.crt"
 ROOT_KEY_FILE = "root.key"
 ROOT_VALID = timedelta(days=3650)
 SERVER_VALID = timedelta(days=397)  # browsers take none that is valid for longer
 SKEW = timedelta(hours=1)
 OWNER_ONLY = 0o600
-OTHERS = 0o077
 
 HOME_NAMES = ("local", "localhost", "home.arpa", "internal")
 PRIVATE_NETWORKS = (
@@ -145,17 +145,6 @@ class Authority:
             )
         networks = [each.value for each in allowed if isinstance(each, x509.IPAddress)]
         return any(address in network for network in networks)  # type: ignore[operator]
-
-
-def require_private(path: Path) -> None:
-    """Do nothing if only its owner can read a file.
-
-    Raises:
-        ExposedKeyError: others can, too.
-        OSError: there is no such file.
-    """
-    if path.stat().st_mode & OTHERS:
-        raise ExposedKeyError(f"Others than its owner can read {path}.")
 
 
 def _write_private(path: Path, key: ec.EllipticCurvePrivateKey) -> None:

@@ -9,10 +9,9 @@ from pathlib import Path
 
 from server.access.addresses import ANY, network_address
 from server.config.settings import Settings
-from server.tls.authority import Authority, require_private
 from server.tls.errors import CertificateError
-
-FOLDER = "tls"
+from server.tls.places import FOLDER
+from server.tls.private import require_private
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +38,10 @@ def tls_files(settings: Settings) -> TlsFiles | None:
     """
     tls = settings.tls
     if tls.mode == "own":
-        names = _single_labels(settings)
-        authority = Authority(settings.storage.data_dir / FOLDER, names)
+        # loaded only here: it takes a tenth of a second
+        from server.tls.authority import Authority  # noqa: PLC0415
+
+        authority = Authority(settings.storage.data_dir / FOLDER, _single_labels(settings))
         certificate, key = authority.issue(own_names(settings))
         return TlsFiles(certificate, key, authority.fingerprint())
     if tls.mode == "off" or tls.certificate is None or tls.key is None:

@@ -36,12 +36,12 @@ def opened(browser: Browser, address: str, *, wide: bool = False) -> Iterator[Pa
 
 
 def expect_home(page: Page) -> None:
-    expect(page.get_by_role("button", name="Charge", exact=True)).to_be_visible(timeout=20_000)
+    expect(page.get_by_role("button", name="Charge", exact=True)).to_be_visible(timeout=30_000)
 
 
 def expect_door(page: Page) -> None:
     expect(page.get_by_role("heading", level=1)).to_have_text(
-        "This device is not paired yet", timeout=20_000
+        "This device is not paired yet", timeout=30_000
     )
 
 
@@ -99,7 +99,7 @@ def test_the_owner_invites_and_removes(browser: Browser, server: ServerProcess) 
             expect_door(grandma)
             grandma.get_by_label("Invitation address").fill(address)
             grandma.get_by_role("button", name="Pair this device").click()
-            expect(grandma.get_by_text("You can watch")).to_be_visible(timeout=20_000)
+            expect(grandma.get_by_text("You can watch")).to_be_visible(timeout=30_000)
             assert not grandma.get_by_role("button", name="Charge", exact=True).is_visible()
             refused = grandma.evaluate(
                 "fetch('/api/v1/jobs', {method: 'POST', body: '{\"type\": \"charge\"}',"

@@ -10,6 +10,9 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.chromium import PHONE
 from tests.support.process import INVITATION, ServerProcess, serving
 
+LOADED_MS = 30_000
+"""A busy machine may take its time."""
+
 AUTHENTICATOR = {
     "protocol": "ctap2",
     "transport": "internal",
@@ -37,7 +40,7 @@ def owner(browser: Browser, server: ServerProcess) -> Iterator[Page]:
     session.send("WebAuthn.enable")
     session.send("WebAuthn.addVirtualAuthenticator", {"options": AUTHENTICATOR})
     page.goto(address.replace("127.0.0.1", "localhost"))
-    expect(page.get_by_role("button", name="Charge", exact=True)).to_be_visible(timeout=20_000)
+    expect(page.get_by_role("button", name="Charge", exact=True)).to_be_visible(timeout=LOADED_MS)
     yield page
     context.close()
 
@@ -46,13 +49,17 @@ def _add_passkey(page: Page) -> None:
     page.get_by_role("button", name="People and devices").click()
     page.get_by_role("button", name="Me", exact=True).click()
     page.get_by_role("button", name="Add a passkey").click()
-    expect(page.get_by_role("dialog").get_by_text("Chrome on Linux")).to_be_visible()
+    expect(page.get_by_role("dialog").get_by_text("Chrome on Linux")).to_be_visible(
+        timeout=LOADED_MS
+    )
 
 
 def _sign_out(page: Page) -> None:
     page.get_by_role("button", name="Sign this device out").click()
     page.get_by_role("button", name="Really remove?").click()
-    expect(page.get_by_role("heading", level=1)).to_have_text("This device is not paired yet")
+    expect(page.get_by_role("heading", level=1)).to_have_text(
+        "This device is not paired yet", timeout=LOADED_MS
+    )
 
 
 def _cookies(page: Page) -> list[str]:
@@ -67,7 +74,7 @@ def test_a_passkey_lets_its_person_in_again(owner: Page) -> None:
 
     owner.get_by_role("button", name="Use my passkey").click()
 
-    expect(owner.get_by_role("button", name="Charge", exact=True)).to_be_visible(timeout=20_000)
+    expect(owner.get_by_role("button", name="Charge", exact=True)).to_be_visible(timeout=LOADED_MS)
     assert _cookies(owner) != before
     session = owner.evaluate("fetch('/api/v1/access/session').then(r => r.json())")
     assert (session["person"]["name"], session["person"]["role"]) == ("Owner", "owner")
@@ -77,12 +84,16 @@ def test_a_passkey_that_was_removed_lets_nobody_in(owner: Page) -> None:
     _add_passkey(owner)
     owner.get_by_role("dialog").get_by_role("button", name="Remove").click()
     owner.get_by_role("button", name="Really remove?").click()
-    expect(owner.get_by_role("dialog").get_by_text("Chrome on Linux")).to_have_count(0)
+    expect(owner.get_by_role("dialog").get_by_text("Chrome on Linux")).to_have_count(
+        0, timeout=LOADED_MS
+    )
     _sign_out(owner)
 
     owner.get_by_role("button", name="Use my passkey").click()
 
-    expect(owner.get_by_role("alert")).to_contain_text("The passkey was not accepted")
+    expect(owner.get_by_role("alert")).to_contain_text(
+        "The passkey was not accepted", timeout=LOADED_MS
+    )
 
 
 REPLAY = """async () => {

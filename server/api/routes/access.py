@@ -8,9 +8,8 @@ from fastapi import APIRouter, Header, Path, Request, Response
 
 from server.access import Caller, Need
 from server.access.errors import ForbiddenError
-from server.access.model import Passkey, Person
+from server.access.model import Origin, Passkey, Person
 from server.access.pairing import VALID
-from server.access.passkeys import Origin
 from server.api.dependencies import ServicesDep
 from server.api.gate import caller_of
 from server.api.gate.caller import COOKIE_AGE_S, cookie_name, scheme_of
@@ -114,9 +113,8 @@ async def list_passkeys(request: Request, services: ServicesDep) -> PasskeyList:
 @router.post("/passkeys/options", operation_id="beginPasskey", responses=problem_responses(403))
 async def begin_passkey(request: Request, services: ServicesDep) -> PasskeyOptions:
     """Options for making a passkey."""
-    return PasskeyOptions(
-        options=services.access.passkeys.begin(_person(request), _origin(request))
-    )
+    passkeys = await services.access.passkeys()
+    return PasskeyOptions(options=passkeys.begin(_person(request), _origin(request)))
 
 
 @router.post(
@@ -126,7 +124,8 @@ async def add_passkey(
     answer: PasskeyAnswer, request: Request, services: ServicesDep, user_agent: UserAgent = ""
 ) -> PasskeyEntry:
     """Keep a passkey that the browser made."""
-    passkey = await services.access.passkeys.add(
+    passkeys = await services.access.passkeys()
+    passkey = await passkeys.add(
         _person(request),
         answer.credential,
         _origin(request),
@@ -145,13 +144,15 @@ async def add_passkey(
 async def remove_passkey(passkey_id: EntryId, request: Request, services: ServicesDep) -> None:
     """Forget one of one's own passkeys."""
     address = caller_of(request).address
-    await services.access.passkeys.remove(_person(request), passkey_id, address)
+    passkeys = await services.access.passkeys()
+    await passkeys.remove(_person(request), passkey_id, address)
 
 
 @router.post("/login/options", operation_id="beginLogin", responses=problem_responses(403, 429))
 async def begin_login(request: Request, services: ServicesDep) -> PasskeyOptions:
     """Options for showing a passkey."""
-    return PasskeyOptions(options=services.access.passkeys.begin_login(_origin(request)))
+    passkeys = await services.access.passkeys()
+    return PasskeyOptions(options=passkeys.begin_login(_origin(request)))
 
 
 @router.post("/login", operation_id="logIn", responses=problem_responses(403, 422, 429))
@@ -164,7 +165,8 @@ async def log_in(
 ) -> AccessSession:
     """Show a passkey: this browser becomes a device of its person."""
     before = caller_of(request)
-    _, _, cookie = await services.access.passkeys.log_in(
+    passkeys = await services.access.passkeys()
+    _, _, cookie = await passkeys.log_in(
         answer.credential, _origin(request), user_agent, before.address
     )
     return await _welcome(request, response, services, cookie, before)

@@ -13,7 +13,8 @@ from cryptography.x509.verification import PolicyBuilder, Store, VerificationErr
 from server.config.settings import Settings
 from server.config.storage import StorageSettings
 from server.config.tls import TlsSettings
-from server.tls import ROOT_FILE, Authority, CertificateError, ExposedKeyError, tls_files
+from server.tls import ROOT_FILE, CertificateError, ExposedKeyError, tls_files
+from server.tls.authority import Authority
 from tests.support.process import serving
 
 
