@@ -8,6 +8,7 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic import TypeAdapter
 
+from server.access import OPERATIONS, Need
 from server.api.examples import BODIES, MODELS, REQUESTS
 from server.api.problem_examples import problem_example
 from server.api.problems import MEDIA_TYPE, problem_responses
@@ -67,6 +68,8 @@ def _add_statuses(operation: Document) -> None:
     statuses = set()
     if operation["operationId"] not in STOPS:
         statuses.add(503)  # the disk, or PlugPilot is ending
+    if OPERATIONS[operation["operationId"]] is not Need.ANYONE:
+        statuses |= {401, 403}
     if operation.get("parameters"):
         statuses.add(422)
     if "requestBody" in operation:

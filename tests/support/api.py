@@ -9,9 +9,11 @@ from typing import Any, TypeVar
 import httpx
 
 from server.api.app import PREFIX, create_app
+from server.api.gate.caller import COOKIE
 from server.config.settings import Settings
 from server.schema.problem import TYPE_PREFIX
 from tests.support.garage import Scene, on_scene
+from tests.support.pairing import new_device
 
 T = TypeVar("T")
 
@@ -23,7 +25,7 @@ def on_api(
     parked: bool = False,
     settings: Settings | None = None,
 ) -> T:
-    """Run a scenario with a client of the API. Paths are relative to /api/v1/."""
+    """Run a scenario with a client of the API of the owner. Paths are relative to /api/v1/."""
 
     async def with_client(scene: Scene) -> T:
         app = create_app(lambda: contextlib.nullcontext(scene.services))
@@ -32,6 +34,7 @@ def on_api(
             httpx.AsyncClient(
                 transport=httpx.ASGITransport(app, raise_app_exceptions=False),
                 base_url=f"http://plugpilot{PREFIX}/",
+                cookies={COOKIE: await new_device(scene.services.access)},
             ) as client,
         ):
             return await scenario(scene, client)

@@ -19,7 +19,12 @@ from server.schema.live import ClientMessage
 PUBLISHED = Path(__file__).resolve().parents[3] / "web" / "openapi.json"
 METHODS = {"get", "put", "post", "delete", "patch"}
 PROBLEM = {"$ref": "#/components/schemas/Problem"}
-STREAMS = {"image/jpeg", "multipart/x-mixed-replace", "application/octet-stream"}
+STREAMS = {
+    "image/jpeg",
+    "multipart/x-mixed-replace",
+    "application/octet-stream",
+    "application/x-ndjson",
+}
 
 
 @pytest.fixture(scope="module")

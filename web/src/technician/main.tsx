@@ -1,11 +1,13 @@
 import { render } from "preact";
-import { connect } from "@/live/page";
+import { Door } from "@/access/door";
+import { begin } from "@/access/session";
 import "uplot/dist/uPlot.min.css";
 import "@/style/tokens.css";
 import "@/style/page.css";
 import "@/style/controls.css";
 import "@/style/cards.css";
 import "@/style/views.css";
+import "@/access/access.css";
 import "./bench.css";
 import "./jog/jog.css";
 import "./readings/readings.css";
@@ -13,5 +15,5 @@ import { Technician } from "./app";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("technician.html has no element #app");
-connect();
-render(<Technician />, root);
+render(<Door page={Technician} />, root);
+void begin();
