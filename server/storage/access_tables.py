@@ -9,7 +9,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import DDL, JSON, ForeignKey, LargeBinary, String, event
+from sqlalchemy import JSON, ForeignKey, LargeBinary, String
 from sqlalchemy.orm import Mapped, mapped_column
 
 from server.storage.tables import Base
@@ -94,7 +94,7 @@ class PasskeyRow(Base):
 
 
 class AuditRow(Base):
-    """One entry of the audit trail. Triggers refuse every change of it."""
+    """One entry of the audit trail. Triggers refuse every change of it (step 0003)."""
 
     __tablename__ = "audit"
 
@@ -106,14 +106,3 @@ class AuditRow(Base):
     detail: Mapped[dict[str, Any]]
     times: Mapped[int] = mapped_column(default=1)
     chain: Mapped[str] = mapped_column(_DIGEST)
-
-
-for _change in ("UPDATE", "DELETE"):
-    event.listen(
-        AuditRow.__table__,
-        "after_create",
-        DDL(  # type: ignore[no-untyped-call] # SQLAlchemy's
-            f"CREATE TRIGGER audit_refuses_{_change.lower()} BEFORE {_change} ON audit "
-            "BEGIN SELECT RAISE(ABORT, 'the audit trail is append-only'); END"
-        ),
-    )

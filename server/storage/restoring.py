@@ -12,13 +12,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 from urllib.parse import quote
 
-from sqlalchemy import Connection, func, select
+from sqlalchemy import Connection, delete, func, select
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.orm import Session
 
 from server.control.model import PlugState
 from server.jobs.model import JobState
 from server.schema.problem import problem_from
+from server.storage.access_tables import InvitationRow
 from server.storage.backups import check_backup, copy_file, put_in_place, stamp
 from server.storage.copying import copy_tables, empty_tables
 from server.storage.engines import file_engine
@@ -171,6 +172,8 @@ def _forget_the_moment(connection: Connection) -> None:
         plug = PlugState.UNKNOWN.value
         # The lowest number of all: any record of the installation itself is newer.
         session.merge(PlugRow(id=1, state=plug, corridor=None, revision=0))
+        # One that was used since would let somebody in a second time.
+        session.execute(delete(InvitationRow))
         open_states = [state.value for state in JobState if not state.ended]
         for row in session.scalars(select(JobRow).where(JobRow.state.in_(open_states))):
             _close(session, row)

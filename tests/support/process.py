@@ -22,6 +22,7 @@ from playwright.sync_api import BrowserContext
 
 from server.access.recovery import invite_owner
 from server.config.access import AccessSettings
+from server.config.storage import StorageSettings
 
 READY = "PlugPilot is ready: "
 INVITATION = "Pair your browser, once: "
@@ -49,7 +50,7 @@ class ServerProcess:
     def cookies(self) -> dict[str, str]:
         """What the server gave to a browser that was paired as an owner's."""
         with ThreadPoolExecutor(1) as beside_any_loop:
-            invitation = invite_owner(self.data_dir, AccessSettings())
+            invitation = invite_owner(StorageSettings(data_dir=self.data_dir), AccessSettings())
             secret = beside_any_loop.submit(asyncio.run, invitation).result()
         answer = httpx.post(
             f"{self.url}/api/v1/access/pairing", json={"secret": secret}, trust_env=False

@@ -80,14 +80,14 @@ def test_a_change_behind_its_back_is_found(change: str) -> None:
 
 
 @pytest.mark.parametrize("statement", ["UPDATE audit SET actor = 'Eve'", "DELETE FROM audit"])
-def test_the_database_refuses_to_change_it(statement: str) -> None:
+def test_the_database_refuses_to_change_it(statement: str, tmp_path: Path) -> None:
     async def scenario(log: AuditLog, database: Database) -> None:
         log.record("operation", **WHO)
         await log.written()
         with pytest.raises(StorageError, match="append-only"):
             await database.run(lambda session: session.execute(text(statement)))
 
-    with_log(scenario)
+    with_log(scenario, tmp_path)
 
 
 def test_a_burst_is_one_entry_and_another_that_says_how_often() -> None:

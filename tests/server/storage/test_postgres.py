@@ -8,7 +8,16 @@ from pathlib import Path
 
 import psycopg
 import pytest
+from pydantic import SecretStr
+from sqlalchemy import text
 
+from server.access import Role
+from server.access.audit import AuditLog, broken_links
+from server.access.errors import InvitationError
+from server.access.recovery import invite_owner
+from server.access.recovery import opened as access_of
+from server.config.access import AccessSettings
+from server.config.storage import StorageSettings
 from server.control.model import PlugState
 from server.control.plug_guard import Corridor, PlugRecord
 from server.jobs.model import JobPhase, JobState, JobType
@@ -27,6 +36,7 @@ from server.storage.postgres_home import PostgresHome
 from server.storage.restoring import restore_to_server
 from server.storage.upgrade import HEAD
 from server.storage.vehicles import VehicleStore
+from server.timing import Calendar
 from tests.server.storage.first_release import INTERRUPTED, first_release
 from tests.server.storage.samples import event, job
 from tests.server.storage.test_upgrade import differences
@@ -80,6 +90,47 @@ def test_everything_comes_back_as_it_was(postgres: PostgresServer, tmp_path: Pat
         assert vehicle is not None
         assert vehicle.name == "Zoé"
         await database.close()
+
+    run_virtual(scenario())
+
+
+@pytest.mark.parametrize("statement", ["UPDATE audit SET actor = 'Eve'", "DELETE FROM audit"])
+def test_the_audit_trail_refuses_changes(
+    postgres: PostgresServer, tmp_path: Path, statement: str
+) -> None:
+    url = postgres.new_database()
+
+    async def scenario() -> None:
+        database = await opened(tmp_path, url)
+        log = AuditLog(database, Calendar().now)
+        log.record("operation", actor="person: Zoé", address="192.0.2.7", name="Grüße")
+        await log.written()
+        with pytest.raises(StorageError, match="append-only"):
+            await database.run(lambda session: session.execute(text(statement)))
+        entries = [entry async for entry in log.everything()]
+        assert [entry.detail for entry in entries] == [{"name": "Grüße"}]
+        assert list(broken_links(iter(entries))) == []
+        await log.close()
+        await database.close()
+
+    run_virtual(scenario())
+
+
+def test_the_command_line_invites_into_the_database_of_the_server(
+    postgres: PostgresServer, tmp_path: Path
+) -> None:
+    storage = StorageSettings(data_dir=tmp_path, url=SecretStr(postgres.new_database()))
+
+    async def scenario() -> None:
+        secret = await invite_owner(storage, AccessSettings())
+        async with access_of(storage, AccessSettings()) as access:
+            person, _, _ = await access.pairing.pair(secret, "Firefox/140 Linux", "192.0.2.7")
+            assert person.role is Role.OWNER
+            with pytest.raises(InvitationError):
+                await access.pairing.pair(secret, "Firefox/140 Linux", "192.0.2.7")
+        async with access_of(storage, AccessSettings()) as access:
+            assert access.register.has_owner
+        assert not (tmp_path / "plugpilot.sqlite3").exists()
 
     run_virtual(scenario())
 
@@ -154,9 +205,12 @@ def test_a_backup_moves_from_file_to_server_and_back(
     with closing(sqlite3.connect(file)) as connection:
         connection.execute("PRAGMA journal_mode = DELETE")
         before = connection.execute("SELECT * FROM vehicles ORDER BY id").fetchall()
-    home = PostgresHome(postgres.new_database())
+    url = postgres.new_database()
+    home = PostgresHome(url)
     restore_to_server(file, home)
-    restore_to_server(file, home)  # what was there is replaced
+    with psycopg.connect(url) as server:
+        server.execute("INSERT INTO audit VALUES (1, now(), 'e', 'a', '', '{}', 1, '')")
+    restore_to_server(file, home)  # what was there is replaced, even what refuses to be changed
     exported = tmp_path / "exported.sqlite3"
     export(home, exported)
     home.engine.dispose()
@@ -165,5 +219,6 @@ def test_a_backup_moves_from_file_to_server_and_back(
         states = dict(connection.execute("SELECT id, state FROM jobs").fetchall())
         (events,) = connection.execute("SELECT count(*) FROM job_events").fetchone()
         assert connection.execute("SELECT state FROM plug").fetchall() == [("unknown",)]
+        assert connection.execute("SELECT count(*) FROM audit").fetchone() == (0,)
     assert states[INTERRUPTED] == JobState.FAILED
     assert events == 35
