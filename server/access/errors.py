@@ -7,8 +7,6 @@ AccessError
 ├── UnknownHostError     asked for under a name that is not ours
 ├── InvitationError      not valid: used, expired, withdrawn or never made
 ├── TooManyAttemptsError slow down
-├── TooLargeError        the request is too long
-├── TooSlowError         the request did not arrive in time
 ├── LastOwnerError       nobody could decide anything any more
 ├── NoSuchEntryError     no such person, device, key, invitation or passkey
 └── PasskeyError         the passkey was not accepted
@@ -76,24 +74,6 @@ class TooManyAttemptsError(AccessError):
     title = "Too many attempts"
     status = 429
     remedy = "Wait a minute, then try again."
-
-
-class TooLargeError(AccessError):
-    """The request is too long."""
-
-    code = "too_large"
-    title = "The request is too long"
-    status = 413
-    remedy = "Send less at once."
-
-
-class TooSlowError(AccessError):
-    """The request did not arrive in time."""
-
-    code = "too_slow"
-    title = "The request took too long to arrive"
-    status = 408
-    remedy = "Check the network and send it again."
 
 
 class LastOwnerError(AccessError):

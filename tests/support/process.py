@@ -20,6 +20,7 @@ from pathlib import Path
 import httpx
 from playwright.sync_api import BrowserContext
 
+from server.access import Scope
 from server.access.recovery import invite_owner
 from server.config.access import AccessSettings
 from server.config.storage import StorageSettings
@@ -62,6 +63,14 @@ class ServerProcess:
     def headers(self) -> dict[str, str]:
         """What a paired browser sends with every request."""
         return {"Cookie": "; ".join(f"{name}={value}" for name, value in self.cookies.items())}
+
+    def new_key(self, *scopes: Scope) -> str:
+        """A key as a program sends it."""
+        with self.rest() as owner:
+            made = owner.post("access/keys", json={"name": "test", "scopes": list(scopes)})
+        made.raise_for_status()
+        key: str = made.json()["key"]
+        return key
 
     def rest(self, timeout_s: float = 20.0) -> httpx.Client:
         """A client of the API that is paired."""

@@ -7,7 +7,7 @@ import asyncio
 from starlette.datastructures import Headers
 from starlette.types import Message, Receive
 
-from server.access.errors import TooLargeError, TooSlowError
+from server.api.errors import BodyTooLargeError, BodyTooSlowError
 
 MAX_BYTES = 64 * 1024
 PATIENCE_S = 10.0
@@ -24,12 +24,12 @@ async def read_body(headers: Headers, receive: Receive, limit: int, patience_s: 
         patience_s: Within which it must be here [s of the event loop].
 
     Raises:
-        TooLargeError: it is longer, or says so.
-        TooSlowError: it did not arrive in time.
+        BodyTooLargeError: it is longer, or says so.
+        BodyTooSlowError: it did not arrive in time.
     """
     declared = headers.get("content-length")
     if declared is not None and declared.isdigit() and int(declared) > limit:
-        raise TooLargeError(f"The limit is {limit} bytes.", limit_bytes=limit)
+        raise BodyTooLargeError(f"The limit is {limit} bytes.", limit_bytes=limit)
     if declared in (None, "0") and "transfer-encoding" not in headers:
         return EMPTY
     parts, length = [], 0
@@ -42,11 +42,11 @@ async def read_body(headers: Headers, receive: Receive, limit: int, patience_s: 
                 parts.append(message.get("body", EMPTY))
                 length += len(parts[-1])
                 if length > limit:
-                    raise TooLargeError(f"The limit is {limit} bytes.", limit_bytes=limit)
+                    raise BodyTooLargeError(f"The limit is {limit} bytes.", limit_bytes=limit)
                 if not message.get("more_body", False):
                     return EMPTY.join(parts)
     except TimeoutError as error:
-        raise TooSlowError("The body did not arrive in time.") from error
+        raise BodyTooSlowError("The body did not arrive in time.") from error
 
 
 def replayed(body: bytes, receive: Receive) -> Receive:

@@ -22,12 +22,14 @@ from server.access.errors import (
     WrongOriginError,
 )
 from server.access.operations import FREQUENT, LARGE_BODIES, LIMITED, STOPS
+from server.api.errors import BodyTooLargeError, BodyTooSlowError
 from server.api.gate.body import MAX_BYTES, PATIENCE_S, read_body, replayed
 from server.api.gate.caller import find_caller, scheme_of
 from server.api.gate.origin import is_from_elsewhere, is_own_host
 from server.api.gate.routes import Operation, RouteTable
 from server.api.gate.watch import UNPAIRED, Watched
 from server.api.problems import respond
+from server.errors import PlugPilotError
 from server.services import Services
 
 _log = logging.getLogger(__name__)
@@ -73,7 +75,7 @@ class Gate:
             ends = Watched(receive, send, partial(_still_may, services.access, caller, operation))
             noted = _noted(services.access, operation, caller, scope, ends.send)
             await self._app(scope, ends.receive, noted)
-        except AccessError as error:
+        except (AccessError, BodyTooLargeError, BodyTooSlowError) as error:
             name = operation.name if operation is not None else scope["path"][:100]
             services.access.audit.record_burst(
                 "refused",
@@ -162,7 +164,7 @@ def _noted(access: Access, operation: Operation, caller: Caller, scope: Scope, s
     return noting
 
 
-async def _refuse(error: AccessError, scope: Scope, receive: Receive, send: Send) -> None:
+async def _refuse(error: PlugPilotError, scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
         await send({"type": "websocket.close", "code": UNPAIRED, "reason": ""})
         return

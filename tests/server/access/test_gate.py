@@ -146,13 +146,13 @@ def test_every_refusal_of_an_invitation_is_the_same() -> None:
 def test_a_long_body_is_refused_before_it_is_read() -> None:
     async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
         declared = await client.post("jobs", content=b" " * (MAX_BYTES + 1))
-        problem(declared, 413, "too_large")
+        problem(declared, 413, "body_too_large")
 
         async def endless() -> AsyncIterator[bytes]:
             for _ in range(MAX_BYTES // 1024 + 5):
                 yield b" " * 1024
 
-        problem(await client.post("jobs", content=endless()), 413, "too_large")
+        problem(await client.post("jobs", content=endless()), 413, "body_too_large")
 
     at_the_gate(scenario, role=Role.OWNER)
 
@@ -166,7 +166,7 @@ def test_a_body_that_does_not_come_is_not_waited_for() -> None:
 
         await client.post("robot/stop")  # now the board is there and stopped
         began_s = scene.now_s
-        problem(await client.post("jobs", content=slow()), 408, "too_slow")
+        problem(await client.post("jobs", content=slow()), 408, "body_too_slow")
         assert scene.now_s - began_s == pytest.approx(10, abs=0.5)
         began_s = scene.now_s
         assert (await client.post("robot/stop", content=slow())).status_code == 200
