@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
-from server.api.arrival_examples import ARRIVAL_MODELS, ARRIVAL_REQUESTS
 
 Json = Any
 
@@ -80,7 +79,6 @@ _DELIVERY: dict[str, Json] = {
 
 MODELS: dict[str, Json] = {
     **ACCESS_MODELS,
-    **ARRIVAL_MODELS,
     "ChargePoint": {
         "cp_state": "C",
         "enabled": True,
@@ -195,7 +193,6 @@ BODIES: dict[str, Json] = {
 """Of requests whose body has no schema of its own name, by operation."""
 
 REQUESTS: dict[str, dict[str, Json]] = {
-    **ARRIVAL_REQUESTS,
     "createJob": {
         "charge": {
             "summary": "Plug in, charge 12 kWh, unplug",

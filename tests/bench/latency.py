@@ -52,13 +52,10 @@ def main() -> None:
     if len(sys.argv) > 1 and sys.argv[1].startswith("http"):
         url, given_s, count = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
         key = {"Authorization": f"Bearer {sys.argv[4]}"}
-        watching = count > 0
-        times = (
-            asyncio.run(_watch_all(url, key, given_s, count))
-            if watching
-            else _read(url, key, given_s)
-        )
-        print(json.dumps(times))
+        if count:
+            print(json.dumps(asyncio.run(_watch_all(url, key, given_s, count))))
+        else:
+            print(json.dumps(_read(url, key, given_s)))
         return
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS
     watchers = int(sys.argv[2]) if len(sys.argv) > 2 else WATCHERS

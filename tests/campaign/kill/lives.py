@@ -81,7 +81,7 @@ def launch(socket: Path, folder: Path, speed: float) -> subprocess.Popen[str]:
 def alive(process: subprocess.Popen[str], launched_at: float, folder: Path) -> Iterator[Life]:
     """Wait until a server is ready, and see to it that it has ended afterwards.
 
-    The client belongs to an owner who is paired anew: what a dead server knew is not taken on trust.
+    The client is an owner's who is paired anew, as a person would be whose phone is not known.
 
     Raises:
         ServerDiedError: it has not come so far.
