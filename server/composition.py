@@ -24,9 +24,7 @@ from server.control.jog import DEAD_MAN_S, Jog
 from server.control.path_check import Strength
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
-from server.divergence.report import twin_report
 from server.guidance.guide import Guide
-from server.guidance.view import guidance_view
 from server.integrations import Integrations
 from server.jobs.runner import JobRunner
 from server.labels.key_file import load_label_key
@@ -34,14 +32,11 @@ from server.labels.payload import LabelKey
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
 from server.live.station_watch import StationWatch
-from server.live.twin_feed import feed_twin
-from server.live.views import robot_view, station_view
+from server.live_sections import show
 from server.localisation.eye import Eye
 from server.recordings.playbacks import Playbacks
 from server.recordings.recorder import Recorder
 from server.recordings.store import RecordingStore
-from server.schema.live import Service
-from server.schema.problem import problem_from
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
 from server.simulated_car import SimulatedCar
@@ -50,7 +45,6 @@ from server.storage.jobs import JobStore
 from server.storage.plug import StoredPlug
 from server.storage.vehicles import VehicleStore
 from server.timing import Calendar
-from server.version import VERSION
 from twin.scene import TwinHost
 
 _log = logging.getLogger(__name__)
@@ -205,7 +199,7 @@ async def running(
             garage=devices.garage,
             simulated_car=_simulated_car(devices, settings),
         )
-        _show(services)
+        show(services)
         integrations.tell_events(services)
         await _start(services, stack, wait_for_robot=wait_for_robot)
         yield services
@@ -325,55 +319,3 @@ def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
             follower.take(state)
 
     supervisor.listen(pass_on)
-
-
-def _show(services: Services) -> None:
-    """Connect what changes to those who watch."""
-    live, supervisor, runner = services.live, services.supervisor, services.runner
-    live.add("robot", lambda: robot_view(supervisor, runner.socket, services.calendar))
-    live.add("job", lambda: runner.newest and services.recordings.show(runner.newest))
-    live.add(
-        "station",
-        lambda: station_view(
-            services.station.name,
-            services.station.snapshot,
-            online=services.station.online,
-            calendar=services.calendar,
-        ),
-    )
-    live.add("service", lambda: _service(services))
-    services.database.listen(lambda: live.changed("service", urgent=True))
-    live.add("twin", lambda: twin_report(services.divergence.parted, services.calendar))
-    live.add(
-        "guidance", lambda: guidance_view(services.guide, services.settings, services.calendar)
-    )
-    services.guide.listen(lambda: live.changed("guidance"))
-    services.divergence.listen(lambda _: live.changed("twin", urgent=True))
-
-    shown: list[object] = [None]
-
-    def robot_changed() -> None:
-        what_matters = (supervisor.mode, supervisor.plug.state, supervisor.holder)
-        live.changed("robot", urgent=what_matters != shown[0])
-        shown[0] = what_matters
-
-    def job_changed() -> None:
-        live.changed("robot")
-        live.changed("job", urgent=True)
-
-    supervisor.listen(robot_changed)
-    runner.listen(job_changed)
-    if services.twin is not None:
-        feed_twin(services, services.twin)
-
-
-def _service(services: Services) -> Service:
-    return Service(
-        version=VERSION,
-        simulated=services.settings.simulated,
-        simulated_parts=services.settings.simulated_parts,
-        speed=services.settings.clock_speed,
-        camera_online=services.camera.online,
-        started_at=services.started_at,
-        storage=problem_from(problem) if (problem := services.database.problem) else None,
-    )

@@ -6,11 +6,14 @@ import numpy as np
 
 from drivers.camera.model import CameraModel
 from drivers.simulator import poses
-from drivers.simulator.parameters import BuildErrors
+from drivers.simulator.parameters import BuildErrors, SimulationParameters
+from drivers.simulator.plant import Plant
+from drivers.simulator.sag import RobotSag
 from drivers.simulator.view import Pose
 from twin.as_built import PlanarAsBuilt
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
+from twin.statics import SagTables
 
 _LENGTHS = (
     "leg_length_mm",
@@ -50,6 +53,19 @@ def built_mechanism(
             "left_scale": left,
             "right_scale": right,
         }
+    )
+
+
+def built_plant(
+    geometry: RobotGeometry,
+    parameters: SimulationParameters,
+    sag: SagTables,
+    rng: np.random.Generator,
+) -> Plant:
+    """The moving parts of a robot with that true geometry."""
+    mechanism = built_mechanism(geometry, parameters.build, rng)
+    return Plant(
+        geometry, mechanism, parameters, RobotSag(geometry, parameters.build.sag_scale, sag)
     )
 
 

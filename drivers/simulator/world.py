@@ -13,14 +13,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from drivers.simulator.build import built_geometry, built_mechanism, built_mount
+from drivers.simulator.build import built_geometry, built_mount, built_plant
 from drivers.simulator.car import ParkedCar, park
 from drivers.simulator.car_spot import CarSpot
 from drivers.simulator.moving_car import MovingCar
 from drivers.simulator.parameters import SimulationParameters
-from drivers.simulator.plant import Plant, PlantState, Socket, Surroundings
+from drivers.simulator.plant import PlantState, Socket, Surroundings
 from drivers.simulator.randomness import Streams
-from drivers.simulator.sag import RobotSag
 from drivers.simulator.set_points import SetPointLine
 from drivers.simulator.socket_contact import FREE, Place, SocketContact
 from drivers.simulator.truth import GroundTruth, ground_truth
@@ -76,12 +75,9 @@ class SimulatedWorld:
         self.streams = Streams.from_seed(seed)
         true_geometry = built_geometry(geometry, parameters.build, self.streams.build)
         self._platform_camera = built_mount(mount, parameters.build, self.streams.build)
-        self._force_scale = 1.0 + float(
-            self.streams.build.normal(0.0, parameters.drives.force_scale_std)
-        )
-        mechanism = built_mechanism(true_geometry, parameters.build, self.streams.build)
-        robot_sag = RobotSag(true_geometry, parameters.build.sag_scale, sag)
-        self._plant = Plant(true_geometry, mechanism, parameters, robot_sag)
+        force_error = self.streams.build.normal(0.0, parameters.drives.force_scale_std)
+        self._force_scale = 1.0 + float(force_error)
+        self._plant = built_plant(true_geometry, parameters, sag, self.streams.build)
         self._force_limit_n = parameters.board.default_force_limit_n
         self._slide_jammed = False
         self._listeners: list[ConnectionListener] = []

@@ -116,6 +116,40 @@ MODELS: dict[str, Json] = {
         "next_cursor": None,
         "complete": True,
     },
+    "Guidance": {
+        "state": "move",
+        "since": "2026-03-01T18:04:03.400Z",
+        "arriving": True,
+        "headline": "Go on forward",
+        "detail": "Still 35 cm to go.",
+        "remedy": "",
+        "steps": [{"direction": "forward", "distance_mm": 352.4, "shown_cm": 35}],
+        "car": {
+            "vehicle_id": "zoe",
+            "x_mm": 642.1,
+            "y_mm": 318.7,
+            "z_mm": 592.0,
+            "sigma_x_mm": 0.4,
+            "sigma_z_mm": 2.1,
+            "correlation_xz": 0.12,
+            "velocity_x_mm_s": 1.5,
+            "velocity_z_mm_s": -240.0,
+            "still": False,
+            "skew_deg": 0.8,
+            "skew_sigma_deg": 0.3,
+            "turned_deg": -0.6,
+            "distance_mm": 655.2,
+            "margin_mm": -352.4,
+            "seen_at": NOW,
+        },
+        "zones": {
+            "good": [[560.0, 225.0], [740.0, 225.0], [740.0, 255.0], [560.0, 255.0]],
+            "reachable": [[540.0, 215.0], [760.0, 215.0], [760.0, 275.0], [540.0, 275.0]],
+            "stop_z_mm": 240.0,
+        },
+        "driver_faces": "robot",
+        "max_skew_deg": 3.0,
+    },
     "Health": {
         "status": "ok",
         "version": "0.1.0",
@@ -164,6 +198,13 @@ MODELS: dict[str, Json] = {
         "socket": None,
         "updated_at": NOW,
     },
+    "SimulatedCarNow": {
+        "x_mm": 642.1,
+        "y_mm": 318.7,
+        "z_mm": 592.0,
+        "speed_mm_s": 240.0,
+        "moving": True,
+    },
     "Station": {
         "name": "OpenEVSE",
         "online": True,
@@ -193,6 +234,18 @@ BODIES: dict[str, Json] = {
 """Of requests whose body has no schema of its own name, by operation."""
 
 REQUESTS: dict[str, dict[str, Json]] = {
+    "commandSimulatedCar": {
+        "drive_in": {
+            "summary": "Come in, 20 cm beside the way, and stop at the place",
+            "value": {"type": "drive_in", "right_mm": 200},
+        },
+        "drive_on": {
+            "summary": "Go on 30 cm",
+            "value": {"type": "drive_on", "forward_mm": 300},
+        },
+        "brake": {"summary": "Stop now", "value": {"type": "brake"}},
+        "leave": {"summary": "Back out of the garage", "value": {"type": "leave"}},
+    },
     "createJob": {
         "charge": {
             "summary": "Plug in, charge 12 kWh, unplug",

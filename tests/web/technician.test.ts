@@ -45,8 +45,10 @@ afterEach(async () => {
 });
 
 const show = (state: Live): void => FakeSocket.newest.says(snapshot(state));
-const button = (name: string): HTMLButtonElement => screen.getByRole("button", { name });
-const find = (name: string): Promise<HTMLElement> => screen.findByRole("button", { name });
+/** A button, whatever its name says of the way left. */
+const named = (name: string): { name: RegExp } => ({ name: new RegExp(`^${name}(,|$)`) });
+const button = (name: string): HTMLButtonElement => screen.getByRole("button", named(name));
+const find = (name: string): Promise<HTMLElement> => screen.findByRole("button", named(name));
 /** Jog messages and stops, without the numbers that the channel gives them. */
 const sent = (): object[] =>
   FakeSocket.newest.sent.map(({ id: _id, ...message }) => message as object);

@@ -11,7 +11,7 @@ from server.schema.guidance import Guidance
 router = APIRouter(prefix="/guidance", tags=["guidance"])
 
 
-@router.get("", operation_id="getGuidance")
+@router.get("", operation_id="getGuidance", summary="Read the parking guidance")
 async def get_guidance(services: ServicesDep) -> Guidance:
     """What the driver of an arriving car is told now.
 

@@ -20,13 +20,23 @@ def _car(services: Services) -> SimulatedCar:
     return services.simulated_car
 
 
-@router.get("/car", operation_id="getSimulatedCar", responses=problem_responses(409))
+@router.get(
+    "/car",
+    operation_id="getSimulatedCar",
+    summary="Read the simulated car",
+    responses=problem_responses(409),
+)
 async def get_car(services: ServicesDep) -> SimulatedCarNow:
     """Where the simulated car really is."""
     return _car(services).now
 
 
-@router.post("/car", operation_id="commandSimulatedCar", responses=problem_responses(409, 422))
+@router.post(
+    "/car",
+    operation_id="commandSimulatedCar",
+    summary="Drive the simulated car",
+    responses=problem_responses(409, 422),
+)
 async def command_car(command: CarCommand, services: ServicesDep) -> SimulatedCarNow:
     """Let the simulated car drive in, on, stop or leave; answers at once."""
     return _car(services).carry_out(command)

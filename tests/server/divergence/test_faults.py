@@ -54,7 +54,9 @@ def test_a_jammed_slide_is_seen_before_the_board_gives_up() -> None:
         jammed_s = scene.now_s
         scene.garage.world.jam_slide(jammed_s)
         await scene.until(lambda: bool(scene.services.divergence.parted), step_s=0.002)
-        assert scene.now_s - jammed_s < 0.1
+        # The watch over the plug ends the push within 60 ms, before the deviation has lasted long
+        # enough to be one; the pull back shows it.
+        assert scene.now_s - jammed_s < 0.5
         assert scene.services.supervisor.fault is None
         ended = await scene.ended(job)
         assert ended.state is JobState.FAILED

@@ -5351,75 +5351,75 @@ export interface operations {
                      * @example {
                      *       "arriving": true,
                      *       "car": {
-                     *         "correlation_xz": 0.1,
-                     *         "distance_mm": 590,
-                     *         "margin_mm": -283.4,
-                     *         "seen_at": "2026-03-01T18:01:14.920Z",
-                     *         "sigma_x_mm": 1.1,
-                     *         "sigma_z_mm": 2.3,
-                     *         "skew_deg": 1.2,
-                     *         "skew_sigma_deg": 0.4,
+                     *         "correlation_xz": 0.12,
+                     *         "distance_mm": 655.2,
+                     *         "margin_mm": -352.4,
+                     *         "seen_at": "2026-03-01T18:04:05.120Z",
+                     *         "sigma_x_mm": 0.4,
+                     *         "sigma_z_mm": 2.1,
+                     *         "skew_deg": 0.8,
+                     *         "skew_sigma_deg": 0.3,
                      *         "still": false,
-                     *         "turned_deg": 1,
+                     *         "turned_deg": -0.6,
                      *         "vehicle_id": "zoe",
-                     *         "velocity_x_mm_s": 0.4,
-                     *         "velocity_z_mm_s": -140,
-                     *         "x_mm": 612,
-                     *         "y_mm": 334,
-                     *         "z_mm": 540.4
+                     *         "velocity_x_mm_s": 1.5,
+                     *         "velocity_z_mm_s": -240,
+                     *         "x_mm": 642.1,
+                     *         "y_mm": 318.7,
+                     *         "z_mm": 592
                      *       },
-                     *       "detail": "Renault Zoe",
+                     *       "detail": "Still 35 cm to go.",
                      *       "driver_faces": "robot",
-                     *       "headline": "Forward 28 cm",
-                     *       "max_skew_deg": 4,
+                     *       "headline": "Go on forward",
+                     *       "max_skew_deg": 3,
                      *       "remedy": "",
-                     *       "since": "2026-03-01T18:01:12.000Z",
+                     *       "since": "2026-03-01T18:04:03.400Z",
                      *       "state": "move",
                      *       "steps": [
                      *         {
                      *           "direction": "forward",
-                     *           "distance_mm": 283.4,
-                     *           "shown_cm": 28
+                     *           "distance_mm": 352.4,
+                     *           "shown_cm": 35
                      *         }
                      *       ],
                      *       "zones": {
                      *         "good": [
                      *           [
                      *             560,
-                     *             190
+                     *             225
                      *           ],
                      *           [
-                     *             700,
-                     *             190
+                     *             740,
+                     *             225
                      *           ],
                      *           [
-                     *             700,
-                     *             257
+                     *             740,
+                     *             255
                      *           ],
                      *           [
                      *             560,
-                     *             257
+                     *             255
                      *           ]
                      *         ],
                      *         "reachable": [
                      *           [
                      *             540,
-                     *             180
+                     *             215
                      *           ],
                      *           [
-                     *             720,
-                     *             180
+                     *             760,
+                     *             215
                      *           ],
                      *           [
-                     *             720,
-                     *             270
+                     *             760,
+                     *             275
                      *           ],
                      *           [
                      *             540,
-                     *             270
+                     *             275
                      *           ]
                      *         ],
-                     *         "stop_z_mm": 223.5
+                     *         "stop_z_mm": 240
                      *       }
                      *     }
                      */
@@ -6710,10 +6710,10 @@ export interface operations {
                     /**
                      * @example {
                      *       "moving": true,
-                     *       "speed_mm_s": 140,
-                     *       "x_mm": 612,
-                     *       "y_mm": 334,
-                     *       "z_mm": 540.4
+                     *       "speed_mm_s": 240,
+                     *       "x_mm": 642.1,
+                     *       "y_mm": 318.7,
+                     *       "z_mm": 592
                      *     }
                      */
                     readonly "application/json": components["schemas"]["SimulatedCarNow"];
@@ -6748,10 +6748,10 @@ export interface operations {
                     /**
                      * @example {
                      *       "moving": true,
-                     *       "speed_mm_s": 140,
-                     *       "x_mm": 612,
-                     *       "y_mm": 334,
-                     *       "z_mm": 540.4
+                     *       "speed_mm_s": 240,
+                     *       "x_mm": 642.1,
+                     *       "y_mm": 318.7,
+                     *       "z_mm": 592
                      *     }
                      */
                     readonly "application/json": components["schemas"]["SimulatedCarNow"];

@@ -156,13 +156,15 @@ const ARROWS: Record<JogAxis, Record<Direction, string>> = {
 function JogButton({ way }: { way: Way }) {
   const held = sameWay(deadMan.held.value, way);
   const left_mm = wayLeft_mm(way);
+  const left = left_mm === null ? "" : say.jog.left(left_mm);
+  const name = say.jog.ways[way.axis][way.direction];
   return (
     <button
       type="button"
       class="button jog-button"
       disabled={!held && (!isOpen(way) || stepping.value || left_mm === 0)}
       data-held={held}
-      aria-label={say.jog.ways[way.axis][way.direction]}
+      aria-label={left === "" ? name : `${name}, ${left}`}
       onPointerDown={(event) => {
         if (!event.isPrimary || event.button !== 0) {
           deadMan.release();
@@ -180,7 +182,7 @@ function JogButton({ way }: { way: Way }) {
       <svg viewBox="0 0 24 24" aria-hidden="true">
         <path d={ARROWS[way.axis][way.direction]} />
       </svg>
-      <small>{left_mm === null ? "" : say.jog.left(left_mm)}</small>
+      <small>{left}</small>
     </button>
   );
 }
