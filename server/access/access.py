@@ -48,6 +48,8 @@ class Access:
         )
         self.pairing = Pairing(store, self.register, self.audit, now)
         self._calendar = calendar
+        self._database = database
+        self._reading: asyncio.Task[None] | None = None
         self._passkeys: Passkeys | None = None
         self.attempts = Attempts(per_s=PER_S * speed)
 
@@ -60,10 +62,22 @@ class Access:
         return self._passkeys
 
     async def start(self) -> None:
-        """Read everybody from the database."""
+        """Read everybody from the database, and again when it comes back from a failure.
+
+        What cannot be read at the start knows nobody.
+        """
         await self.register.load()
+        self._database.listen(self._database_changed)
 
     async def close(self) -> None:
         """Write what was not written yet."""
+        if self._reading is not None:
+            await asyncio.wait({self._reading})
         await self.register.close()
         await self.audit.close()
+
+    def _database_changed(self) -> None:
+        if self._database.problem is None:
+            self._reading = asyncio.get_running_loop().create_task(
+                self.register.load(), name="read who is known"
+            )

@@ -187,12 +187,21 @@ def test_a_damaged_database_is_told_and_left_alone_and_the_robot_starts(tmp_path
     damaged = tmp_path / "plugpilot.sqlite3"
     damaged.write_text(json.dumps({"this is": "no database"}) * 100)
     before = damaged.read_bytes()
-    with serving(data_dir=tmp_path) as server, _rest(server) as client:
+    with (
+        serving(data_dir=tmp_path) as server,
+        httpx.Client(base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0) as client,
+    ):
         health = client.get("health").json()
         assert health["status"] == "degraded"
         assert health["components"]["storage"]["status"] == "down"
         assert "plugpilot restore" in health["components"]["storage"]["detail"]
         assert client.post("robot/stop").status_code < 300
+        # Nobody is known, so the terminal lets somebody in; the plug may have to come out.
+        assert server.process.stdout is not None
+        secret = server.process.stdout.readline().strip().partition("#pair=")[2]
+        assert client.get("robot").status_code == 401
+        assert client.post("access/pairing", json={"secret": secret}).status_code == 200
+        assert client.post("robot/reset").status_code == 200
     assert damaged.read_bytes() == before
 
 

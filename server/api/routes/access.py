@@ -243,6 +243,8 @@ def _session(request: Request, services: Services, caller: Caller) -> AccessSess
 
 def _is_own_screen(services: Services, caller: Caller) -> bool:
     access = services.access
+    if services.database.problem is not None:
+        return False  # there may be an owner whom nobody can read
     return access.settings.screen and caller.kind == "machine" and not access.register.has_owner
 
 

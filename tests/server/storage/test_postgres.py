@@ -11,7 +11,7 @@ import pytest
 from pydantic import SecretStr
 from sqlalchemy import text
 
-from server.access import Role
+from server.access import Access, Role
 from server.access.audit import AuditLog, broken_links
 from server.access.errors import InvitationError
 from server.access.recovery import invite_owner
@@ -40,6 +40,7 @@ from server.timing import Calendar
 from tests.server.storage.first_release import INTERRUPTED, first_release
 from tests.server.storage.samples import event, job
 from tests.server.storage.test_upgrade import differences
+from tests.support.pairing import new_device
 from tests.support.postgres import PostgresServer
 from tests.support.virtual import run_virtual, wait_until
 
@@ -157,6 +158,34 @@ def test_a_server_that_goes_and_comes_back(postgres: PostgresServer, tmp_path: P
         await wait_until(lambda: database.problem is None, timeout_s=3 * RETRY_S)
         assert [found.sequence for found in await jobs.events(job(1).id)] == [1, 2]
         assert await jobs.get(unplug.id) == unplug
+        await database.close()
+
+    run_virtual(scenario())
+
+
+def test_who_is_known_is_known_again_when_the_server_comes_back(
+    postgres: PostgresServer, tmp_path: Path
+) -> None:
+    url = postgres.new_database()
+
+    async def scenario() -> None:
+        database = await opened(tmp_path, url)
+        access = Access(database, Calendar(), AccessSettings())
+        await access.start()
+        cookie = await new_device(access)
+        await access.close()
+        await database.close()
+
+        postgres.stop()
+        database = await opened(tmp_path, url)
+        access = Access(database, Calendar(), AccessSettings())
+        await access.start()
+        assert access.register.caller(cookie, "192.0.2.7") is None
+        postgres.start()
+        await wait_until(lambda: database.problem is None, timeout_s=3 * RETRY_S)
+        await wait_until(lambda: access.register.has_owner)
+        assert access.register.caller(cookie, "192.0.2.7") is not None
+        await access.close()
         await database.close()
 
     run_virtual(scenario())
