@@ -13,7 +13,7 @@ api="${PLUGPILOT_URL:-http://127.0.0.1:8000}/api/v1"
 
 call() {
     curl --silent --show-error --fail-with-body --max-time 10 \
-        --header "Authorization: Bearer ${PLUGPILOT_TOKEN" "$@"
+        --header "Authorization: Bearer $PLUGPILOT_TOKEN" "$@"
 }
 
 text_of() { # the value of a text field of flat JSON
