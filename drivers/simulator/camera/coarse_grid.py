@@ -13,7 +13,8 @@ from drivers.camera import CameraModel
 
 Field = NDArray[np.float32]
 
-_ROUNDS = 20
+_MOST_ROUNDS = 60
+_CLOSE_PX = 1e-7
 
 
 class Region(NamedTuple):
@@ -75,16 +76,30 @@ class CoarseGrid:
 
 
 def _rays(optics: CameraModel, pixels: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Normalised coordinates of pixels, both shape (n, 2), exact to far below a millionth of one.
+    """Normalised coordinates of pixels, both shape (n, 2), exact to a millionth of a pixel.
 
-    OpenCV stops after five rounds; how to ask for more differs between its versions 4 and 5, so
-    the rest is done here: what the projection of a ray misses its pixel by is taken off the ray.
+    What a ray misses its pixel by is taken off the ray, again and again. OpenCV's own function
+    stops after five rounds; how to ask for more differs between its versions 4 and 5.
     """
-    start = cv2.undistortPoints(pixels.reshape(-1, 1, 2), optics.matrix, optics.distortion)
-    rays = np.asarray(start, dtype=np.float64).reshape(-1, 2)
-    still = np.zeros(3)
-    for _ in range(_ROUNDS):
-        points = np.column_stack((rays, np.ones(len(rays))))
-        seen, _ = cv2.projectPoints(points, still, still, optics.matrix, optics.distortion)
-        rays = rays - (np.asarray(seen).reshape(-1, 2) - pixels) / (optics.fx, optics.fy)
+    wanted = (pixels - (optics.cx, optics.cy)) / (optics.fx, optics.fy)
+    rays = wanted.copy()
+    for _ in range(_MOST_ROUNDS):
+        missed = _distorted(optics, rays) - wanted
+        rays -= missed
+        if np.abs(missed).max() * optics.fx < _CLOSE_PX:
+            break
     return rays
+
+
+def _distorted(optics: CameraModel, rays: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What the lens makes of rays (x, y): radial and tangential distortion (Brown 1966)."""
+    x, y = rays[:, 0], rays[:, 1]
+    square = x * x + y * y
+    radial = 1 + square * (optics.k1 + square * (optics.k2 + square * optics.k3))
+    twice_xy = 2 * x * y
+    return np.column_stack(
+        (
+            x * radial + optics.p1 * twice_xy + optics.p2 * (square + 2 * x * x),
+            y * radial + optics.p1 * (square + 2 * y * y) + optics.p2 * twice_xy,
+        )
+    )
