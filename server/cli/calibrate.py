@@ -18,7 +18,8 @@ from server.calibration.camera.board_views import BoardViews, find_board
 from server.calibration.camera.calibration_file import keep
 from server.calibration.camera.coverage import coverage_map
 from server.calibration.camera.solve import CameraSolution, solve_camera
-from server.calibration.camera.verdict import Grade, Verdict, judge
+from server.calibration.camera.verdict import Verdict, judge
+from server.calibration.grade import Grade
 from server.config import Option, load_settings
 from server.labels.board_sheet import BoardLayout
 from server.vision.image_file import load_grey_image

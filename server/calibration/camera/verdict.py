@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from server.calibration.camera.coverage import covered_share, uncovered_edges
 from server.calibration.camera.solve import CameraSolution
+from server.calibration.grade import Grade, worst
 
 GOOD_RMS_PX, USABLE_RMS_PX = 0.4, 1.0
 GOOD_FOCAL_SHARE, USABLE_FOCAL_SHARE = 0.001, 0.003
@@ -24,14 +24,6 @@ GOOD_COVER, USABLE_COVER = 0.8, 0.6
 TILTED_RAD = math.radians(15.0)
 FEWEST_TILTED = 4
 OVERFIT = 1.5
-
-
-class Grade(StrEnum):
-    """What to do with a calibration."""
-
-    GOOD = "good"
-    USABLE = "usable"
-    BAD = "bad"
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,9 +81,8 @@ def judge(solution: CameraSolution, coverage: NDArray[np.int_]) -> Verdict:
     if 3 * left_out > len(solution.views):
         text = f"{left_out} pictures had to be left out: did the board bend or the focus move?"
         marks.append((Grade.BAD, text))
-    order = list(Grade)
-    worst = max((grade for grade, _ in marks), key=order.index)
-    return Verdict(worst, tuple(text for grade, text in marks if grade is not Grade.GOOD))
+    grade = worst(grade for grade, _ in marks)
+    return Verdict(grade, tuple(text for grade, text in marks if grade is not Grade.GOOD))
 
 
 def _grade(value: float, good: float, usable: float) -> Grade:

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from server.calibration.grade import Grade, worst
 from server.calibration.robot.errors import RobotFitDivergedError
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
@@ -33,14 +33,6 @@ MOST_OUTLIERS = 0.2
 _ANY_RHO_MM = 200.0
 PRIOR_SIGMAS = 4.0
 """An unknown so far from the drawing is rather a mistake than a bad build."""
-
-
-class Grade(StrEnum):
-    """What to do with a calibration."""
-
-    GOOD = "good"
-    USABLE = "usable"
-    BAD = "bad"
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,9 +109,8 @@ def judge(
             )
         )
     marks += [(Grade.USABLE, text) for text in _far_from_the_drawing(solution, known)]
-    order = list(Grade)
-    worst = max((grade for grade, _ in marks), key=order.index, default=Grade.GOOD)
-    return RobotVerdict(worst, tuple(text for _, text in marks), held_back_mm, in_use_mm)
+    grade = worst(grade for grade, _ in marks)
+    return RobotVerdict(grade, tuple(text for _, text in marks), held_back_mm, in_use_mm)
 
 
 def _held_back_mm(

@@ -54,7 +54,7 @@ def test_the_simulated_car_does_as_it_is_told() -> None:
         problem(await tell(type="fly"), 422, "invalid_request")
         problem(await tell(type="drive_in", past_mm=1900), 409, "car_refuses")
         assert (await tell(type="drive_in", from_mm=500, past_mm=-60)).status_code == 200
-        await scene.later(1.5)
+        await scene.later(0.8)
         assert (await _car(client)).speed_mm_s > 50
         await tell(type="brake")
         await scene.later(4.0)

@@ -71,8 +71,13 @@ async def serve(host: TwinHost, file: Path) -> AsyncIterator[str]:
 
 
 async def until(page: Page, condition: str) -> None:
-    """Wait until a condition holds in the frame or around it."""
-    await page.wait_for_function(condition, timeout=60_000, polling=100)
+    """Wait until a condition holds in the frame or around it.
+
+    Asked from here: the page's policy forbids the evaluation a wait inside it would need.
+    """
+    async with asyncio.timeout(60):
+        while not await page.evaluate(condition):  # noqa: ASYNC110 - a page sends no events here
+            await asyncio.sleep(0.1)
 
 
 def platform_is_at(joints: JointPosition) -> str:

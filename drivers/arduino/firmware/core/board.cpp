@@ -31,8 +31,6 @@ bool Board::in_motion_state() const {
 }
 
 void Board::brake() {
-  // whoever stops it: the encoder may be dead, and the slide has gone on
-  if (slide_.pushes_unseen()) homed_ = false;
   interpolator_.brake();
   begin_settling();
 }

@@ -216,22 +216,6 @@ TEST(a_dead_encoder_unhomes) {
   }
 }
 
-TEST(a_stop_before_the_stall_unhomes_only_if_the_encoder_is_silent) {
-  for (const bool dead : {true, false}) {
-    Stand s;
-    push_slowly(s);
-    if (dead) {
-      s.encoder_dead = true;
-    } else {
-      s.wall = s.place[kSlide] + 3;
-    }
-    CHECK(s.run_until([&] { return s.report().force_dn >= 250; }, 2000) >= 0);
-    s.board.stop(StopCategory::DECELERATE_AND_HOLD);
-    CHECK(s.run_until([&] { return s.in(State::READY); }, 2000) >= 0);
-    CHECK_EQUAL(homed(s), !dead);
-  }
-}
-
 TEST(a_slide_that_is_dragged_away_is_a_following_error) {
   Stand s;
   start_motion(s);

@@ -14,7 +14,8 @@ from server.calibration.camera.errors import (
     WrongBoardError,
 )
 from server.calibration.camera.solve import CameraSolution, solve_camera
-from server.calibration.camera.verdict import Grade, judge
+from server.calibration.camera.verdict import judge
+from server.calibration.grade import Grade
 from server.labels.board_sheet import BoardLayout
 from tests.server.calibration.camera.conftest import LAYOUT, TRUTH, Picture
 

@@ -4,13 +4,14 @@ import cv2
 import numpy as np
 import pytest
 
+from server.calibration.grade import Grade
 from server.calibration.robot.errors import RobotFitDivergedError, TooFewLooksError
 from server.calibration.robot.identifiability import combinations
 from server.calibration.robot.looks import LabelLook
 from server.calibration.robot.poses import choose_places, in_travelling_order
 from server.calibration.robot.solve import RobotSolution, solve_robot
 from server.calibration.robot.unknowns import MECHANISM, Unknowns
-from server.calibration.robot.verdict import Grade, judge
+from server.calibration.robot.verdict import judge
 from tests.server.calibration.robot.built import DRAWN, R_DRAWN, Workshop, truth_of
 from twin.as_built import PlanarAsBuilt
 from twin.kinematics import alpha
