@@ -12,11 +12,6 @@ from pathlib import Path
 
 import pytest
 
-from server.access.errors import InvitationError
-from server.access.recovery import invite_owner
-from server.access.recovery import opened as access_of
-from server.config.access import AccessSettings
-from server.config.storage import StorageSettings
 from server.control.model import PlugState
 from server.control.plug_guard import PlugRecord
 from server.jobs.model import JobState
@@ -205,22 +200,6 @@ def test_the_plug_is_where_it_is_and_not_where_it_was_at_the_backup(tmp_path: Pa
     (tmp_path / PLUG_FILE).unlink()
     restore(backup, tmp_path)
     assert run_virtual(found()) == PlugRecord(PlugState.UNKNOWN, None)
-
-
-def test_an_invitation_in_a_backup_lets_nobody_in_a_second_time(tmp_path: Path) -> None:
-    storage, settings = StorageSettings(data_dir=tmp_path), AccessSettings()
-    secret = run_virtual(invite_owner(storage, settings))
-    backup = tmp_path / "backup"
-    back_up(tmp_path / FILE_NAME, backup)
-
-    async def pair() -> None:
-        async with access_of(storage, settings) as access:
-            await access.pairing.pair(secret, "", "")
-
-    run_virtual(pair())
-    restore(backup, tmp_path)
-    with pytest.raises(InvitationError):
-        run_virtual(pair())
 
 
 def test_a_backup_of_the_first_release_comes_back(tmp_path: Path) -> None:
