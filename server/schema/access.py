@@ -7,9 +7,9 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from server.access.rights import Need, Role, Scope
-from server.schema.base import Timestamp, Wire
+from server.schema.base import READABLE, Timestamp, Wire
 
-Name = Annotated[str, Field(min_length=1, max_length=60, pattern=r"\S", examples=["Anna"])]
+Name = Annotated[str, Field(min_length=1, max_length=60, pattern=READABLE, examples=["Anna"])]
 NextCursor = Annotated[
     str | None, Field(description="Pass as ?cursor= for the next page; null: end")
 ]

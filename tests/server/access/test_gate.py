@@ -175,6 +175,37 @@ def test_a_body_that_does_not_come_is_not_waited_for() -> None:
     at_the_gate(scenario, role=Role.OWNER)
 
 
+@pytest.mark.parametrize(
+    "name", ["", " \u00a0", "An\nna", "Anna\x1b[2J", "\u202eannA", "A\u200bnna", "A\x9b", "a" * 61]
+)
+def test_a_name_that_hides_something_is_refused(name: str) -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        register = scene.services.access.register
+        (owner,) = register.people
+        person = {"name": name, "role": "owner"}
+        for method, path, body in (
+            ("POST", "access/invitations", person),
+            ("PUT", f"access/people/{owner}", person),
+            ("POST", "access/keys", {"name": name, "scopes": ["read"]}),
+            ("PUT", "vehicles/zoe", {"name": name + 20 * name[:1]}),
+        ):
+            answer = await client.request(method, path, json=body)
+            (fault,) = problem(answer, 422, "invalid_request")["context"]["fields"]
+            assert fault["field"] == "name"
+        assert register.people[owner].name == "Owner"
+
+    at_the_gate(scenario, role=Role.OWNER)
+
+
+@pytest.mark.parametrize("name", ["Zoë", "奶奶", "علی‌رضا", "👩‍🔧", "O'Brien", "a" * 60])
+def test_a_name_of_any_language_is_taken(name: str) -> None:
+    async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
+        made = await client.post("access/invitations", json={"name": name, "role": "viewer"})
+        assert made.status_code == 201, made.text
+
+    at_the_gate(scenario, role=Role.OWNER)
+
+
 def test_every_answer_has_the_headers_that_keep_browsers_careful() -> None:
     async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
         for path in ("health", "robot", "nothing", "/", "/assets/none.js"):

@@ -3399,10 +3399,7 @@ export interface components {
              * @default 60
              */
             readonly label_size_mm?: number;
-            /**
-             * Name
-             * @example Renault Zoe
-             */
+            /** Name */
             readonly name: string;
             /**
              * @default {
