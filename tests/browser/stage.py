@@ -83,6 +83,7 @@ class Stage:
         self.app.include_router(pages_router(STATIC_DIR))
         self.app.websocket("/api/v1/ws")(self._send_live)
         self.app.get("/api/v1/access/session")(self._session)
+        self.app.get("/api/v1/access/{entries}")(self._nothing)
         self.app.get("/api/v1/vehicles")(self._vehicles)
         self.app.get("/api/v1/jobs")(self._jobs)
         self.app.get("/api/v1/jobs/{job_id}/playback")(self._playback)
@@ -120,6 +121,10 @@ class Stage:
 
     async def _session(self) -> AccessSession:
         return OWNER
+
+    async def _nothing(self, entries: str) -> dict[str, object]:
+        del entries
+        return {"items": [], "next_cursor": None}
 
     async def _vehicles(self) -> VehicleList:
         return VEHICLES

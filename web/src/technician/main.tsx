@@ -11,9 +11,16 @@ import "@/access/access.css";
 import "./bench.css";
 import "./jog/jog.css";
 import "./readings/readings.css";
+import { PageStop } from "@/parts/modal";
 import { Technician } from "./app";
+import { StopButtons } from "./stop";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("technician.html has no element #app");
-render(<Door page={Technician} />, root);
+render(
+  <PageStop.Provider value={StopButtons}>
+    <Door page={Technician} />
+  </PageStop.Provider>,
+  root,
+);
 void begin();
