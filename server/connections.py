@@ -8,9 +8,11 @@ on which no request is under way has a time limit, and the oldest of too many ma
 from __future__ import annotations
 
 import asyncio
+import binascii
 import resource
 from typing import Any
 
+import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 MAX_IDLE = 2000
@@ -23,6 +25,7 @@ STALL_PATIENCE_S = 60.0
 """Within which a client must take something of its answer."""
 
 WANTED_FILES = 8192
+WEBSOCKET_KEY_BYTES = 16
 
 
 class _Idle:
@@ -80,10 +83,27 @@ class GuardedConnection(H11Protocol):
         if not self.transport.is_closing() and not self._is_busy():
             self.idle.add(self)
 
-    def handle_websocket_upgrade(self, event: Any) -> None:  # noqa: ANN401 - an event of h11
+    def handle_websocket_upgrade(self, event: h11.Request) -> None:
         """The connection becomes a WebSocket, which has limits of its own."""
+        if not _is_websocket_key(dict(self.headers).get(b"sec-websocket-key", b"")):
+            self.send_400_response("No key of a WebSocket.")  # its library would call it our error
+            return
         self._forget()
         super().handle_websocket_upgrade(event)
+
+    def send_400_response(self, msg: str) -> None:
+        """What has come is not HTTP.
+
+        An answer that is under way would fail at the state that this brings the connection into:
+        it is thrown away. What was asked for happens all the same.
+        """
+        if self._is_busy():
+            self.cycle.disconnected = True
+            self.cycle.message_event.set()
+        if self.conn.our_state in {h11.IDLE, h11.SEND_RESPONSE}:
+            super().send_400_response(msg)
+        else:
+            self.cut()
 
     def pause_writing(self) -> None:
         """The client does not take what is sent."""
@@ -145,6 +165,14 @@ def allow_many_files() -> None:
     wanted = WANTED_FILES if hard == resource.RLIM_INFINITY else min(WANTED_FILES, hard)
     if soft != resource.RLIM_INFINITY and soft < wanted:
         resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
+
+
+def _is_websocket_key(key: bytes) -> bool:
+    """16 bytes in base 64 (RFC 6455, section 4.1)."""
+    try:
+        return len(binascii.a2b_base64(key, strict_mode=True)) == WEBSOCKET_KEY_BYTES
+    except binascii.Error:
+        return False
 
 
 def _stop(timer: asyncio.TimerHandle | None) -> None:

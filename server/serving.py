@@ -64,8 +64,9 @@ def serve(settings: Settings) -> None:
         format="%(asctime)s %(levelname)s %(name)s: %(message)s",
         stream=sys.stderr,
     )
-    for chatty in ("uvicorn", "websockets"):
-        logging.getLogger(chatty).setLevel(logging.WARNING)
+    logging.getLogger("websockets").setLevel(logging.WARNING)
+    # It warns of every piece of nonsense that a stranger sends: he must not fill the log.
+    logging.getLogger("uvicorn").setLevel(logging.ERROR)
     allow_many_files()
     tls = tls_files(settings)
     listener = _listen(settings.server.host, settings.server.port)

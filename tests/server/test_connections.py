@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 import socket
 from collections.abc import AsyncIterator
 from typing import Any
@@ -114,3 +115,43 @@ async def test_many_requests_over_one_connection_stay_possible() -> None:
                 pass
             assert await stream[0].readexactly(2) == b"ok"
         _close(stream)
+
+
+UPGRADE = b"GET / HTTP/1.1\r\nHost: robot\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+
+
+@pytest.mark.parametrize(
+    "nonsense",
+    [
+        b"\0\xff\r\n\r\n",
+        b"POST / HTTP/1.1\r\nHost: robot\r\nTransfer-Encoding: chunked\r\n\r\nZZ\r\n",
+        UPGRADE + b"Sec-WebSocket-Version: 13\r\n\r\n",
+        UPGRADE + b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: \xc0\x80\xff==\r\n\r\n",
+        UPGRADE + b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: YWJj\r\n\r\n",
+    ],
+    ids=["noise", "chunk", "no key", "strange key", "short key"],
+)
+async def test_nonsense_is_refused_and_is_no_error_of_ours(
+    nonsense: bytes, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with _served() as port:
+        stream = await _open(port, nonsense)
+        answer = await asyncio.wait_for(stream[0].read(), 5)
+        assert answer.startswith(b"HTTP/1.1 400 ")
+        other = await _open(port)
+        assert await _answers(other)
+        _close(stream, other)
+    assert [record for record in caplog.records if record.levelno >= logging.ERROR] == []
+
+
+async def test_nonsense_after_an_answer_has_begun_ends_the_connection(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async with _served() as port:
+        request = b"POST / HTTP/1.1\r\nHost: robot\r\nTransfer-Encoding: chunked\r\n\r\n"
+        stream = await _open(port, request)
+        assert await stream[0].readline() == b"HTTP/1.1 200 OK\r\n"
+        stream[1].write(b"ZZ\r\n")
+        await asyncio.wait_for(stream[0].read(), 5)
+        _close(stream)
+    assert [record for record in caplog.records if record.levelno >= logging.ERROR] == []
