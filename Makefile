@@ -16,7 +16,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format audit sbom bench bench-vision campaign fuzz-api hostile \
+.PHONY: help setup run test lint format audit sbom bench bench-vision campaign fuzz fuzz-api hostile \
 	kill rig board lock clean \
 	setup-dev system-packages \
 	check-style check-types check-web test-python test-web
@@ -70,6 +70,9 @@ campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate ca
 
 hostile: setup-dev ## 1000 times a hostile energy manager at a random moment; --timings N in ARGS
 	@$(BIN)/python -m tests.campaign.hostile $(ARGS)
+
+fuzz: setup-dev ## send everything that comes from outside something strange; FUZZ_MINUTES=60
+	@$(BIN)/python -m tests.campaign.fuzz --minutes $${FUZZ_MINUTES:-60} $(ARGS)
 
 fuzz-api: setup-dev ## send the API thousands of requests, good and bad; FUZZ_EXAMPLES=N for each
 	@FUZZ_EXAMPLES=$${FUZZ_EXAMPLES:-300} $(BIN)/pytest --no-header tests/server/api/fuzz $(ARGS)
