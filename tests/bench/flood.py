@@ -45,14 +45,15 @@ def main() -> None:
     print(f"A stop of a paired phone, press to confirmation, {STOPS} of each; the aim is")
     print(f"{AIM_MS:.0f} ms.{'':25}WebSocket                new connection")
     with serving() as server:
-        _print("nobody else", server)
+        resident = _resident(server)
+        _print("nobody else", server, resident)
         for kind, title in (
             ("slow", f"{SLOW_CONNECTIONS} slow or silent"),
             ("login", f"{FLOODERS} flood the way in"),
             ("both", "both at the same time"),
         ):
             with _attacked(server, kind):
-                _print(title, server)
+                _print(title, server, resident)
 
 
 @contextlib.contextmanager
@@ -72,8 +73,19 @@ def _attacked(server: ServerProcess, kind: str) -> Iterator[None]:
         print(report.strip())
 
 
-def _print(title: str, server: ServerProcess) -> None:
-    over_socket, over_new = asyncio.run(_stops(server))
+def _resident(server: ServerProcess) -> dict[str, str]:
+    """What the browser of somebody of the family sends along."""
+    with server.rest() as owner:
+        made = owner.post("access/invitations", json={"name": "Ben", "role": "resident"})
+        made.raise_for_status()
+    secret = made.json()["address"].partition("#pair=")[2]
+    with httpx.Client(base_url=server.url, trust_env=False) as phone:
+        phone.post("/api/v1/access/pairing", json={"secret": secret}).raise_for_status()
+        return {"Cookie": "; ".join(f"{name}={value}" for name, value in phone.cookies.items())}
+
+
+def _print(title: str, server: ServerProcess, resident: dict[str, str]) -> None:
+    over_socket, over_new = asyncio.run(_stops(server, resident))
     print(f"  {title:<26}{_figures(over_socket)}   {_figures(over_new)}", flush=True)
 
 
@@ -83,10 +95,10 @@ def _figures(times_ms: Sequence[float]) -> str:
     return f"{statistics.median(ordered):5.1f} / {p95:5.1f} / {ordered[-1]:5.1f} ms"
 
 
-async def _stops(server: ServerProcess) -> tuple[list[float], list[float]]:
+async def _stops(server: ServerProcess, headers: dict[str, str]) -> tuple[list[float], list[float]]:
     over_socket, over_new = [], []
     address = server.url.replace("http", "ws", 1) + "/api/v1/ws"
-    async with connect(address, additional_headers=server.headers, proxy=None) as socket:
+    async with connect(address, additional_headers=headers, proxy=None) as socket:
         for number in range(STOPS):
             began_s = time.perf_counter()
             await socket.send(json.dumps({"type": "stop", "id": number}))
@@ -94,7 +106,7 @@ async def _stops(server: ServerProcess) -> tuple[list[float], list[float]]:
                 pass
             over_socket.append(1000 * (time.perf_counter() - began_s))
             await asyncio.sleep(PAUSE_S)
-            async with httpx.AsyncClient(headers=server.headers, trust_env=False) as phone:
+            async with httpx.AsyncClient(headers=headers, trust_env=False) as phone:
                 began_s = time.perf_counter()
                 answer = await phone.post(f"{server.url}/api/v1/robot/stop", timeout=20)
                 answer.raise_for_status()
