@@ -26,7 +26,7 @@ from tests.campaign.fuzz.target import BrokenError, Target
 from tests.campaign.fuzz.tidying import tidy
 from tests.support.process import ServerProcess, serving
 
-TURN_S = 3.0
+TURN_S = 5.0
 FAILED = ("Traceback (most recent call last)", " ERROR ", " CRITICAL ")
 WEBHOOKS = '[webhooks]\nallowed_networks = ["127.0.0.0/8"]\n'
 
