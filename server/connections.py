@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import binascii
 import resource
+from collections.abc import Iterable
 from typing import Any
 
 import h11
@@ -26,6 +27,7 @@ STALL_PATIENCE_S = 60.0
 
 WANTED_FILES = 8192
 WEBSOCKET_KEY_BYTES = 16
+HANDSHAKE_FIELDS = (b"sec-websocket-", b"connection", b"upgrade")
 
 
 class _Idle:
@@ -85,8 +87,8 @@ class GuardedConnection(H11Protocol):
 
     def handle_websocket_upgrade(self, event: h11.Request) -> None:
         """The connection becomes a WebSocket, which has limits of its own."""
-        if not _is_websocket_key(dict(self.headers).get(b"sec-websocket-key", b"")):
-            self.send_400_response("No key of a WebSocket.")  # its library would call it our error
+        if not _is_handshake(self.headers):
+            self.send_400_response("No WebSocket.")  # its library would call it our error
             return
         self._forget()
         super().handle_websocket_upgrade(event)
@@ -167,12 +169,16 @@ def allow_many_files() -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
 
 
-def _is_websocket_key(key: bytes) -> bool:
-    """16 bytes in base 64 (RFC 6455, section 4.1)."""
+def _is_handshake(headers: Iterable[tuple[bytes, bytes]]) -> bool:
+    """Whether an upgrade can be one to a WebSocket (RFC 6455, section 4.1): ASCII, and a key."""
+    fields = [(name, value) for name, value in headers if name.startswith(HANDSHAKE_FIELDS)]
+    if not all(value.isascii() for _, value in fields):
+        return False
     try:
-        return len(binascii.a2b_base64(key, strict_mode=True)) == WEBSOCKET_KEY_BYTES
+        key = binascii.a2b_base64(dict(fields).get(b"sec-websocket-key", b""), strict_mode=True)
     except binascii.Error:
         return False
+    return len(key) == WEBSOCKET_KEY_BYTES
 
 
 def _stop(timer: asyncio.TimerHandle | None) -> None:

@@ -117,6 +117,7 @@ async def test_many_requests_over_one_connection_stay_possible() -> None:
         _close(stream)
 
 
+KEY = b"dGhlIHNhbXBsZSBub25jZQ=="
 UPGRADE = b"GET / HTTP/1.1\r\nHost: robot\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
 
 
@@ -128,8 +129,9 @@ UPGRADE = b"GET / HTTP/1.1\r\nHost: robot\r\nConnection: Upgrade\r\nUpgrade: web
         UPGRADE + b"Sec-WebSocket-Version: 13\r\n\r\n",
         UPGRADE + b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: \xc0\x80\xff==\r\n\r\n",
         UPGRADE + b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: YWJj\r\n\r\n",
+        UPGRADE + b"Sec-WebSocket-Version: \x99\r\nSec-WebSocket-Key: " + KEY + b"\r\n\r\n",
     ],
-    ids=["noise", "chunk", "no key", "strange key", "short key"],
+    ids=["noise", "chunk", "no key", "strange key", "short key", "strange version"],
 )
 async def test_nonsense_is_refused_and_is_no_error_of_ours(
     nonsense: bytes, caplog: pytest.LogCaptureFixture
