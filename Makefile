@@ -16,7 +16,8 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format bench bench-vision campaign fuzz-api hostile kill rig board lock clean \
+.PHONY: help setup run test lint format audit sbom bench bench-vision campaign fuzz fuzz-api hostile \
+	kill rig board lock clean \
 	setup-dev system-packages \
 	check-style check-types check-web test-python test-web
 
@@ -37,6 +38,17 @@ lint: setup-dev ## check style and types only
 format: setup-dev ## lay the Python sources out and mend what can be mended
 	@$(BIN)/ruff check --fix --quiet .
 	@$(BIN)/ruff format --quiet .
+
+audit: $(VENV)/.audit web/node_modules/.package-lock.json ## look for known weaknesses in what is used (asks the registries)
+	@$(BIN)/pip-audit --progress-spinner off --require-hashes --disable-pip --requirement requirements.lock
+	@cd web && npm audit --audit-level=low
+
+sbom: $(VENV)/.audit web/node_modules/.package-lock.json ## list all parts with licences and hashes, CycloneDX, into build/
+	@mkdir -p build
+	@$(BIN)/cyclonedx-py requirements --output-reproducible --output-file build/sbom-python.json \
+		requirements.lock
+	@cd web && npm sbom --package-lock-only --sbom-format cyclonedx >../build/sbom-web.json
+	@echo "build/sbom-python.json build/sbom-web.json"
 
 bench: setup-dev ## run the benchmarks
 	@for file in tests/bench/[a-z]*.py; do \
@@ -59,6 +71,9 @@ campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate ca
 hostile: setup-dev ## 1000 times a hostile energy manager at a random moment; --timings N in ARGS
 	@$(BIN)/python -m tests.campaign.hostile $(ARGS)
 
+fuzz: setup-dev ## send everything that comes from outside something strange; FUZZ_MINUTES=60
+	@$(BIN)/python -m tests.campaign.fuzz --minutes $${FUZZ_MINUTES:-60} $(ARGS)
+
 fuzz-api: setup-dev ## send the API thousands of requests, good and bad; FUZZ_EXAMPLES=N for each
 	@FUZZ_EXAMPLES=$${FUZZ_EXAMPLES:-300} $(BIN)/pytest --no-header tests/server/api/fuzz $(ARGS)
 
@@ -72,6 +87,7 @@ lock: $(BIN)/python ## write the lock files; UPGRADE=--upgrade takes the newest 
 	@$(COMPILE) $(UPGRADE) pyproject.toml --group build --group dev \
 		--constraints requirements.lock --output-file requirements-dev.lock
 	@$(COMPILE) $(UPGRADE) --group node --output-file requirements-node.lock
+	@$(COMPILE) $(UPGRADE) --group audit --output-file requirements-audit.lock
 
 clean: ## remove everything that was installed or built, but no data
 	@rm -rf $(VENV) server/static web/node_modules dist build \
@@ -134,6 +150,11 @@ $(VENV)/.project: $(VENV)/.requirements pyproject.toml $(WEB_SOURCES)
 $(VENV)/.development: $(VENV)/.requirements requirements-dev.lock
 	@echo "Installing the tools for the checks ..."
 	@$(PIP) --require-hashes --requirement requirements-dev.lock
+	@touch $@
+
+$(VENV)/.audit: requirements-audit.lock | $(VENV)/.requirements
+	@echo "Installing the tools for the audit ..."
+	@$(PIP) --require-hashes --requirement requirements-audit.lock
 	@touch $@
 
 web/node_modules/.package-lock.json: web/package-lock.json | $(VENV)/.project

@@ -15,6 +15,7 @@ from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
 from drivers.simulator.following import RobotFollower
 from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationError
+from server.access import Access
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
@@ -92,6 +93,9 @@ async def running(
     devices = devices or _devices(settings, folder)
     async with contextlib.AsyncExitStack() as stack:
         database = await _opened(settings.storage, folder, calendar, stack)
+        access = Access(database, calendar, settings.access, speed)
+        await access.start()
+        stack.push_async_callback(access.close)
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
@@ -175,6 +179,7 @@ async def running(
             calendar=calendar,
             started_at=calendar.now(),
             database=database,
+            access=access,
             jobs=jobs,
             vehicles=vehicles,
             supervisor=supervisor,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from drivers.simulator.garage import SimulatedGarage
+from server.access import Access
 from server.adjusting import RunningSettings
 from server.charge_point import ChargePointService
 from server.config.settings import Settings
@@ -38,6 +39,7 @@ class Services:
         calendar: Dates.
         started_at: When PlugPilot was started.
         database: Storage.
+        access: Who may do what.
         jobs: Jobs and their journals.
         vehicles: Known vehicles.
         supervisor: Owner of the robot.
@@ -63,6 +65,7 @@ class Services:
     calendar: Calendar
     started_at: datetime
     database: Database
+    access: Access
     jobs: JobStore
     vehicles: VehicleStore
     supervisor: Supervisor

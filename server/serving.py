@@ -14,15 +14,18 @@ from collections.abc import Callable, Iterator
 
 import uvicorn
 
+from server.announcement import findable, page_address, print_invitation, print_root
 from server.api.app import create_app
 from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
+from server.connections import allow_many_files, guarded
 from server.control.model import RobotMode
 from server.storage.folder_lock import holding
 from server.tidying import tidying_at_rest
 from server.timing import ScaledTimeLoop
+from server.tls import TlsFiles, tls_files
 from twin.scene import TwinHost
 
 SEND_BUFFER_BYTES = 32 * 1024
@@ -64,8 +67,11 @@ def serve(settings: Settings) -> None:
         format="%(asctime)s %(levelname)s %(name)s: %(message)s",
         stream=sys.stderr,
     )
-    for chatty in ("uvicorn", "websockets"):
-        logging.getLogger(chatty).setLevel(logging.WARNING)
+    logging.getLogger("websockets").setLevel(logging.WARNING)
+    # It warns of every piece of nonsense that a stranger sends: he must not fill the log.
+    logging.getLogger("uvicorn").setLevel(logging.ERROR)
+    allow_many_files()
+    tls = tls_files(settings)
     listener = _listen(settings.server.host, settings.server.port)
     # A real robot keeps real time; a simulated one waits for a machine that is too slow.
     factory = (lambda: ScaledTimeLoop(settings.clock_speed)) if settings.simulated else None
@@ -74,10 +80,10 @@ def serve(settings: Settings) -> None:
         holding(settings.storage.data_dir),
         asyncio.Runner(loop_factory=factory) as runner,
     ):
-        runner.run(_serve(settings, listener))
+        runner.run(_serve(settings, listener, tls))
 
 
-async def _serve(settings: Settings, listener: socket.socket) -> None:
+async def _serve(settings: Settings, listener: socket.socket, tls: TlsFiles | None) -> None:
     optics = settings.camera.optics
     twin = TwinHost(
         settings.geometry,
@@ -95,13 +101,28 @@ async def _serve(settings: Settings, listener: socket.socket) -> None:
             lambda now: logging.getLogger().setLevel(now.logging.level.upper())
         )
         app = create_app(lambda: contextlib.nullcontext(services), twin)
-        config = _uvicorn_config(app, settings.clock_speed)
-        server = _Server(config, _address(listener), when_ready=twin.start)
-        try:
-            async with tidying_at_rest(lambda: services.supervisor.mode not in UNDER_WAY):
-                await server.serve(sockets=[listener])
-        finally:
-            await asyncio.to_thread(twin.stop)
+        config = _uvicorn_config(app, settings.clock_speed, tls)
+        page = page_address(
+            "http" if tls is None else "https", settings.server.host, listener.getsockname()[1]
+        )
+        secret = None
+        if not services.access.register.has_owner:
+            secret = await services.access.pairing.invite_owner(address="")
+
+        def ready() -> None:
+            if secret is not None:
+                print_invitation(page, secret, sys.stdout)
+            if tls is not None and tls.fingerprint is not None:
+                print_root(page, tls.fingerprint, sys.stdout)
+            twin.start()
+
+        server = _Server(config, page, when_ready=ready)
+        with findable(settings.storage.data_dir, page):
+            try:
+                async with tidying_at_rest(lambda: services.supervisor.mode not in UNDER_WAY):
+                    await server.serve(sockets=[listener])
+            finally:
+                await asyncio.to_thread(twin.stop)
 
 
 class _Server(uvicorn.Server):
@@ -137,11 +158,12 @@ class _Server(uvicorn.Server):
             self._when_ready()
 
 
-def _uvicorn_config(app: object, speed: float) -> uvicorn.Config:
+def _uvicorn_config(app: object, speed: float, tls: TlsFiles | None) -> uvicorn.Config:
     """Time limits in the loop's time, which may run faster than the wall clock."""
     return uvicorn.Config(
         app,  # type: ignore[arg-type]
         loop="none",
+        http=guarded(speed),
         log_config=None,
         access_log=False,
         ws="websockets-sansio",
@@ -152,6 +174,8 @@ def _uvicorn_config(app: object, speed: float) -> uvicorn.Config:
         timeout_keep_alive=math.ceil(KEEP_ALIVE_S * speed),
         timeout_graceful_shutdown=math.ceil(SHUTDOWN_S * speed),
         server_header=False,
+        ssl_certfile=None if tls is None else tls.certificate,
+        ssl_keyfile=None if tls is None else tls.key,
     )
 
 
@@ -174,8 +198,3 @@ def _listen(host: str, port: int) -> socket.socket:
             raise PortInUseError(f"Another program listens on {host} port {port}.") from error
         raise AddressError(f"Cannot listen on {host} port {port}: {error.strerror}.") from error
     return listener
-
-
-def _address(listener: socket.socket) -> str:
-    host, port = listener.getsockname()[:2]
-    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"

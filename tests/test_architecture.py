@@ -50,7 +50,22 @@ WIRING = {
 
 FORBIDDEN: dict[str, set[str]] = {
     "server.localisation": {"server.jobs", "server.live", "server.storage", *WIRING},
-    "server.storage": {"server.localisation", "server.live", *WIRING, "drivers", "twin.motion"},
+    "server.access": {
+        "server.api",
+        "server.control",
+        "server.jobs",
+        "server.live",
+        "drivers",
+        *WIRING,
+    },
+    "server.storage": {
+        "server.access",
+        "server.localisation",
+        "server.live",
+        *WIRING,
+        "drivers",
+        "twin.motion",
+    },
     "server.jobs": {"server.live", *WIRING, "drivers.simulator"},
     "server.divergence": {"server.live", "server.api", *WIRING, "drivers.simulator"},
     "server.recordings": {"server.api", *WIRING, "drivers.simulator"},

@@ -43,6 +43,7 @@ def wanted(lock: str) -> list[Requirement]:
         "requirements.lock": data["project"]["dependencies"] + groups["build"],
         "requirements-dev.lock": data["project"]["dependencies"] + groups["build"] + groups["dev"],
         "requirements-node.lock": groups["node"],
+        "requirements-audit.lock": groups["audit"],
     }
     return [Requirement(line) for line in lines[lock]]
 
@@ -63,7 +64,12 @@ def test_everything_that_is_imported_is_required() -> None:
     assert not missing, "\n".join(["not in pyproject.toml:", *sorted(missing)])
 
 
-LOCKS = ("requirements.lock", "requirements-dev.lock", "requirements-node.lock")
+LOCKS = (
+    "requirements.lock",
+    "requirements-dev.lock",
+    "requirements-node.lock",
+    "requirements-audit.lock",
+)
 
 
 @pytest.mark.parametrize("lock", LOCKS)

@@ -7,12 +7,16 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 
-from fastapi import APIRouter, FastAPI
+from fastapi import APIRouter, FastAPI, WebSocket
 
+from server.access.operations import twin_messages
+from server.api import root_certificate
 from server.api.contract import describe
+from server.api.gate import Gate, SecurityHeaders, caller_of
 from server.api.pages import pages_router
 from server.api.problems import ANY_PROBLEM, install_handlers
 from server.api.routes import (
+    access,
     camera,
     charge_point,
     config,
@@ -21,6 +25,7 @@ from server.api.routes import (
     health,
     jobs,
     live,
+    people,
     recordings,
     robot,
     simulation,
@@ -78,12 +83,21 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         webhooks,
         config,
         live,
+        access,
+        people,
     ):
         api.include_router(module.router)
     app.include_router(api)
     if twin is not None:
-        app.include_router(twin_router(twin))
+        app.include_router(twin_router(twin, allowed_client_messages=_twin_messages))
+    app.include_router(root_certificate.router)
     app.include_router(pages_router(STATIC))
+    app.add_middleware(Gate)
     install_handlers(app)
+    app.add_middleware(SecurityHeaders)
     describe(app)
     return app
+
+
+def _twin_messages(socket: WebSocket) -> frozenset[str]:
+    return twin_messages(caller_of(socket).rights)

@@ -8,7 +8,9 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic import TypeAdapter
 
+from server.access import OPERATIONS, Need
 from server.api.examples import BODIES, MODELS, REQUESTS
+from server.api.gate.caller import COOKIE
 from server.api.problem_examples import problem_example
 from server.api.problems import MEDIA_TYPE, problem_responses
 from server.schema.events import Event
@@ -20,6 +22,21 @@ Document = dict[str, Any]
 STOPS = {"stopRobot", "emergencyStopRobot"}
 """Never refused, whatever comes with them."""
 
+SECURITY_SCHEMES: Document = {
+    "session": {
+        "type": "apiKey",
+        "in": "cookie",
+        "name": COOKIE,
+        "description": "Of a paired browser, from `pairDevice` or `logIn`. Where the address names "
+        "a port the cookie does, too (`plugpilot-8000`); over https it begins with `__Host-`.",
+    },
+    "key": {
+        "type": "http",
+        "scheme": "bearer",
+        "description": "Of a program, from `createKey`. The list says what the key needs to allow.",
+    },
+}
+
 
 def describe(app: FastAPI) -> None:
     """Add what FastAPI does not see by itself to the application's OpenAPI document."""
@@ -29,9 +46,11 @@ def describe(app: FastAPI) -> None:
         if app.openapi_schema is None:
             document = original()
             _add_messages(document)
+            document["components"]["securitySchemes"] = SECURITY_SCHEMES
             problems = document["components"].setdefault("responses", {})
             for operation in _operations(document):
                 _add_statuses(operation)
+                _add_security(operation)
                 _share_problems(operation, problems)
                 _add_examples(operation)
             _add_webhooks(document)
@@ -67,6 +86,8 @@ def _add_statuses(operation: Document) -> None:
     statuses = set()
     if operation["operationId"] not in STOPS:
         statuses.add(503)  # the disk, or PlugPilot is ending
+    if OPERATIONS[operation["operationId"]] is not Need.ANYONE:
+        statuses |= {401, 403}
     if operation.get("parameters"):
         statuses.add(422)
     if "requestBody" in operation:
@@ -75,6 +96,17 @@ def _add_statuses(operation: Document) -> None:
     for status, response in problem_responses(*statuses).items():
         responses.setdefault(str(status), response)
     operation["responses"] = dict(sorted(responses.items()))
+
+
+def _add_security(operation: Document) -> None:
+    """Who gets in; the rights are those of the table, with the names of the scopes of keys."""
+    need = OPERATIONS[operation["operationId"]]
+    if need is Need.ANYONE:
+        operation["security"] = []
+        return
+    operation["security"] = [{"session": [need.value]}]
+    if need is not Need.PERSON:
+        operation["security"].append({"key": [need.value]})
 
 
 def _share_problems(operation: Document, problems: Document) -> None:

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from server.api.access_examples import ACCESS_MODELS
+
 Json = Any
 
 NOW = "2026-03-01T18:04:05.120Z"
@@ -76,6 +78,7 @@ _DELIVERY: dict[str, Json] = {
 }
 
 MODELS: dict[str, Json] = {
+    **ACCESS_MODELS,
     "ChargePoint": {
         "cp_state": "C",
         "enabled": True,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Annotated, TypeVar
+from collections.abc import Iterable, Sequence
+from typing import Annotated, Protocol, TypeVar
 from uuid import UUID
 
 from fastapi import Query
@@ -11,6 +11,18 @@ from fastapi import Query
 from server.api.errors import InvalidCursorError
 
 T = TypeVar("T")
+LARGEST_NUMBER = 2**53
+
+
+class HasId(Protocol):
+    """Has an id; ids sort by age."""
+
+    @property
+    def id(self) -> str:
+        """A UUID of version 7."""
+
+
+Entry = TypeVar("Entry", bound=HasId)
 
 Cursor = Annotated[
     str | None,
@@ -41,7 +53,7 @@ def number_in(cursor: str | None) -> int | None:
     """
     if cursor is None:
         return None
-    if not (cursor.isascii() and cursor.isdigit()):
+    if not (cursor.isascii() and cursor.isdigit() and int(cursor) <= LARGEST_NUMBER):
         raise InvalidCursorError(f"{cursor!r} is not a cursor of this list.")
     return int(cursor)
 
@@ -55,3 +67,17 @@ def split_page(found: Sequence[T], limit: int) -> tuple[list[T], T | None]:
     """
     page = list(found[:limit])
     return page, page[-1] if len(found) > limit else None
+
+
+def page_by_id(
+    entries: Iterable[Entry], cursor: str | None, limit: int
+) -> tuple[list[Entry], str | None]:
+    """One page of entries in memory, oldest first, and the cursor of the next one.
+
+    Raises:
+        InvalidCursorError: the cursor is none.
+    """
+    after = id_in(cursor) or ""
+    found = sorted((entry for entry in entries if entry.id > after), key=lambda entry: entry.id)
+    page, last = split_page(found, limit)
+    return page, last.id if last else None

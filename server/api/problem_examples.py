@@ -5,6 +5,7 @@ from __future__ import annotations
 from http import HTTPStatus
 from typing import Any
 
+from server.access.errors import ForbiddenError, NotPairedError, TooManyAttemptsError
 from server.api.errors import (
     BodyTooLargeError,
     BodyTooSlowError,
@@ -21,6 +22,8 @@ from server.storage.errors import StorageError
 
 _ERRORS: tuple[PlugPilotError, ...] = (
     MalformedJsonError("The body is not JSON: Expecting value."),
+    NotPairedError("The robot does not know who asks."),
+    ForbiddenError("Ben may not do that."),
     JobNotFoundError("There is no job 42.", job_id="42"),
     BodyTooSlowError("POST /api/v1/jobs: the body did not arrive in time."),
     ControlBusyError(
@@ -33,6 +36,7 @@ _ERRORS: tuple[PlugPilotError, ...] = (
         fields=[{"field": "type", "problem": "Input should be 'charge', 'plug_in' or 'unplug'"}],
     ),
     PreconditionRequiredError("The header If-Match is missing."),
+    TooManyAttemptsError("Try again in 12 s.", wait_s=12),
     InternalError("The request could not be carried out. The log says why."),
     StationUnsafeError("OpenEVSE at http://192.168.1.20 did not answer within 2 s."),
     StorageError("The disk is full."),

@@ -12,10 +12,7 @@ from fastapi.responses import Response
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from server.api.bodies import BodyMiddleware
 from server.api.errors import (
-    BodyTooLargeError,
-    BodyTooSlowError,
     InvalidRequestError,
     MalformedJsonError,
     MethodError,
@@ -50,7 +47,6 @@ def install_handlers(app: FastAPI) -> None:
     app.add_exception_handler(PlugPilotError, _on_own_error)
     app.add_exception_handler(RequestValidationError, _on_invalid_request)
     app.add_exception_handler(HTTPException, _on_http_error)
-    app.add_middleware(BodyMiddleware)
     app.add_middleware(_SurpriseMiddleware)
 
 
@@ -95,10 +91,6 @@ def _on_http_error(request: Request, error: Exception) -> Response:
             return respond(MalformedJsonError("The body cannot be read as JSON."), headers)
         case 404:
             return respond(NotFoundError(f"{where}: there is nothing at this address."), headers)
-        case 408:
-            return respond(BodyTooSlowError(f"{where}: the body did not arrive in time."), headers)
-        case 413:
-            return respond(BodyTooLargeError(f"{where}: the body is too large."), headers)
         case 405:
             return respond(MethodError(f"{where}: this method is not allowed here."), headers)
         case status:

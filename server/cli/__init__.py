@@ -21,6 +21,9 @@ class _Subcommand:
 
 _SUBCOMMANDS = {
     "serve": _Subcommand("server.cli.serve", "Run the robot, its pages and its API."),
+    "pair": _Subcommand("server.cli.pair", "Make a phone or browser an owner's."),
+    "stop": _Subcommand("server.cli.stop", "Stop the robot from its own machine."),
+    "audit": _Subcommand("server.cli.audit", "Write out who did what, or check that trail."),
     "simulate": _Subcommand("server.cli.simulate", "Run jobs on the simulator, without pages."),
     "workspace": _Subcommand(
         "server.cli.workspace", "Study the robot's design; find a smaller one."

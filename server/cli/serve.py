@@ -31,6 +31,12 @@ from server.config import Option, load_settings
 )
 @click.option("--data-dir", help="Folder of database and recordings.  [storage.data_dir, ./data]")
 @click.option("--driver", help="simulator or arduino.  [robot.driver, simulator]")
+@click.option(
+    "--tls",
+    "tls",
+    is_flag=True,
+    help="https with a certificate of this installation's own authority.  [tls.mode, off]",
+)
 @click.option("--speed", help="Simulated seconds per second.  [simulation.speed, 1]")
 @click.option("--seed", help="Chance of the simulated world.  [simulation.seed, 0]")
 def serve(
@@ -41,6 +47,7 @@ def serve(
     serial: str | None,
     data_dir: str | None,
     driver: str | None,
+    tls: bool,
     speed: str | None,
     seed: str | None,
 ) -> None:
@@ -57,6 +64,7 @@ def serve(
             *port_settings,
             Option("--data-dir", "storage.data_dir", data_dir),
             Option("--driver", "robot.driver", driver),
+            Option("--tls", "tls.mode", "own" if tls else None),
             Option("--speed", "simulation.speed", speed),
             Option("--seed", "simulation.seed", seed),
         ],

@@ -7,6 +7,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 from pydantic_settings import BaseSettings, PydanticBaseSettingsSource, SettingsConfigDict
 
+from server.config.access import AccessSettings
 from server.config.camera import CameraSettings
 from server.config.charge_point import ChargePointSettings
 from server.config.forces import force_conflict
@@ -22,6 +23,7 @@ from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
 from server.config.supervision import SupervisionSettings
+from server.config.tls import TlsSettings
 from server.config.webhooks import WebhookSettings
 from twin.divergence import DivergenceNumbers
 from twin.geometry import RobotGeometry
@@ -46,6 +48,8 @@ class Settings(BaseSettings):
     )
 
     server: ServerSettings = ServerSettings()
+    access: AccessSettings = AccessSettings()
+    tls: TlsSettings = TlsSettings()
     storage: StorageSettings = StorageSettings()
     robot: RobotSettings = RobotSettings()
     geometry: RobotGeometry = RobotGeometry()

@@ -17,6 +17,13 @@ VehicleId = Annotated[
     ),
 ]
 
+_UNSEEN = "\\u0000-\\u001f\\u007f-\\u009f\\u200b\\u200e\\u200f\\u2028-\\u202e\\u2060-\\u206f\\ufeff"
+"""Control characters, and those that turn or hide text: with them a name could pass for another
+one, or do something in a terminal. As all dialects of regular expressions spell them."""
+
+READABLE = f"^[^{_UNSEEN}]*[^{_UNSEEN}\\s][^{_UNSEEN}]*$"
+"""Pattern of a name that people read: something can be seen, and nothing is hidden."""
+
 Timestamp = Annotated[AwareDatetime, Field(examples=["2026-03-01T18:04:05.120Z"])]
 
 

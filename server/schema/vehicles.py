@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from server.schema.base import VehicleId, Wire
+from server.schema.base import READABLE, VehicleId, Wire
 
 Offset = Annotated[float, Field(ge=-500, le=500, allow_inf_nan=False)]
 SmallAngle = Annotated[float, Field(ge=-0.6, le=0.6, allow_inf_nan=False)]
@@ -29,7 +29,9 @@ class SocketOffset(Wire):
 class VehicleSettings(Wire):
     """What the owner says about a vehicle."""
 
-    name: Annotated[str, Field(min_length=1, max_length=80, examples=["Renault Zoe"])]
+    name: Annotated[
+        str, Field(min_length=1, max_length=80, pattern=READABLE, examples=["Renault Zoe"])
+    ]
     label_size_mm: Annotated[
         float,
         Field(ge=20, le=200, allow_inf_nan=False, description="Side of the code, quiet zone apart"),
@@ -46,6 +48,7 @@ class Vehicle(VehicleSettings):
     """A vehicle that the robot knows."""
 
     id: VehicleId
+    name: str = Field(max_length=80)  # as it is stored, whenever that was
     label_payload: str = Field(description="Text in its QR label", examples=["PP2:zoe:4NG43RRFJW"])
 
 

@@ -12,13 +12,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 from urllib.parse import quote
 
-from sqlalchemy import Connection, func, select
+from sqlalchemy import Connection, delete, func, select
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.orm import Session
 
 from server.control.model import PlugState
 from server.jobs.model import JobState
 from server.schema.problem import problem_from
+from server.storage.access_tables import InvitationRow
 from server.storage.backups import check_backup, copy_file, put_in_place, stamp
 from server.storage.copying import copy_tables, empty_tables
 from server.storage.engines import file_engine
@@ -26,6 +27,7 @@ from server.storage.errors import BackupError
 from server.storage.plug import UNKNOWN
 from server.storage.plug_file import DamagedPlugFileError, NumberedRecord, PlugFile
 from server.storage.postgres_home import PostgresHome
+from server.storage.restored_access import access_in_file, put_access, read_access
 from server.storage.sqlite_home import FILE_NAME
 from server.storage.tables import JobEventRow, JobRow, PlugRow
 from server.storage.trouble import from_database, from_sqlite, from_system
@@ -45,15 +47,18 @@ class RestoredError(BackupError):
     remedy = "Look where the plug is. If it is in the car, start an unplugging job."
 
 
-def restore(backup: Path, folder: Path) -> Path | None:
+def restore(backup: Path, folder: Path, *, with_people: bool = False) -> Path | None:
     """Put a backup in the place of the SQLite file of an installation.
 
     Where the plug is does not come from the backup: the installation's own record stays in force,
-    and without one it is unknown. Jobs that had not ended are closed.
+    and without one it is unknown. Jobs that had not ended are closed. Nor does it say who may do
+    what: people, devices and keys stay as they are, and where they cannot be read nobody is known.
 
     Args:
         backup: It stays as it is; one of an earlier version is brought up to date on its way.
         folder: The data folder, held by the caller.
+        with_people: Take people, devices and keys from the backup all the same, also those that
+            were removed since.
 
     Returns:
         Where the file is now that was there before; None if there was none.
@@ -67,6 +72,8 @@ def restore(backup: Path, folder: Path) -> Path | None:
     part = file.with_name(FILE_NAME + PART)
     try:
         _copy_up_to_date(backup, part)
+        if not with_people:
+            _know_whom_the_installation_knows(part, file)
         aside = set_aside(folder)
         put_in_place(part, file)
     except OSError as error:
@@ -77,8 +84,13 @@ def restore(backup: Path, folder: Path) -> Path | None:
     return aside
 
 
-def restore_to_server(backup: Path, home: PostgresHome) -> None:
+def restore_to_server(backup: Path, home: PostgresHome, *, with_people: bool = False) -> None:
     """Replace the rows on a PostgreSQL server by those of a backup, all of them or none.
+
+    Args:
+        backup: As in ``restore``.
+        home: The server.
+        with_people: As in ``restore``.
 
     Raises:
         BackupError, DatabaseVersionError, StorageError: as in ``restore``.
@@ -89,7 +101,9 @@ def restore_to_server(backup: Path, home: PostgresHome) -> None:
         engine = file_engine(part)
         try:
             home.prepare()
-            with engine.connect() as source, home.engine.begin() as target:
+            with engine.begin() as source, home.engine.begin() as target:
+                if not with_people:
+                    put_access(source, read_access(target))
                 empty_tables(target)
                 copy_tables(source, target)
         except DBAPIError as error:
@@ -165,12 +179,25 @@ def _copy_up_to_date(backup: Path, part: Path) -> None:
         engine.dispose()
 
 
+def _know_whom_the_installation_knows(part: Path, file: Path) -> None:
+    engine = file_engine(part)
+    try:
+        with engine.begin() as connection:
+            put_access(connection, access_in_file(file))
+    except DBAPIError as error:
+        raise from_database(error, str(part)) from error
+    finally:
+        engine.dispose()
+
+
 def _forget_the_moment(connection: Connection) -> None:
     """What was going on when the backup was made is over."""
     with Session(connection) as session:
         plug = PlugState.UNKNOWN.value
         # The lowest number of all: any record of the installation itself is newer.
         session.merge(PlugRow(id=1, state=plug, corridor=None, revision=0))
+        # One that was used since would let somebody in a second time.
+        session.execute(delete(InvitationRow))
         open_states = [state.value for state in JobState if not state.ended]
         for row in session.scalars(select(JobRow).where(JobRow.state.in_(open_states))):
             _close(session, row)

@@ -13,7 +13,7 @@ _log = logging.getLogger(__name__)
 
 MIGRATIONS = Path(__file__).parent / "migrations"
 
-HEAD = "0002"
+HEAD = "0003"
 """The newest step in migrations/versions. It stands here, too, so that a database that is up to
 date needs no Alembic, whose import takes a Raspberry Pi a second."""
 
@@ -51,11 +51,11 @@ def upgrade(connection: Connection) -> None:
 
     A database of the first release, which knew no steps, takes the first one without change.
     """
+    logging.getLogger("alembic").setLevel(logging.WARNING)  # it names every plugin and step
     # imported late: see HEAD
     from alembic import command  # noqa: PLC0415
     from alembic.config import Config  # noqa: PLC0415
 
-    logging.getLogger("alembic").setLevel(logging.WARNING)  # it names every plugin and step
     config = Config()
     config.set_main_option("script_location", str(MIGRATIONS).replace("%", "%%"))
     config.attributes["connection"] = connection

@@ -22,7 +22,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import cv2
-import httpx
 import numpy as np
 from websockets.asyncio.client import connect
 
@@ -222,10 +221,10 @@ async def _latencies() -> list[float]:
         )
         with serving("--config", str(config), "--seed", "2") as server:
             address = server.url.replace("http", "ws", 1) + "/api/v1/ws"
-            async with connect(address, proxy=None) as socket:
+            async with connect(address, additional_headers=server.headers, proxy=None) as socket:
                 order = {"type": "drive_in", "from_mm": 900}
-                async with httpx.AsyncClient(base_url=f"{server.url}/api/v1") as client:
-                    (await client.post("/simulation/car", json=order)).raise_for_status()
+                with server.rest() as client:
+                    client.post("simulation/car", json=order).raise_for_status()
                 return await _ages_ms(socket)
 
 

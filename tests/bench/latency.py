@@ -19,6 +19,7 @@ import tempfile
 import time
 from collections.abc import Sequence
 from datetime import UTC, datetime
+from http import HTTPStatus
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -26,6 +27,7 @@ from websockets.asyncio.client import ClientConnection, connect
 
 from drivers.robot import BoardState
 from drivers.simulator.parameters import BoardParameters, SimulationParameters
+from server.access import Scope
 from server.api.app import create_app
 from server.composition import running
 from server.config.settings import Settings
@@ -36,6 +38,7 @@ from server.services import Services
 from server.simulation import park_first
 from server.tidying import tidying_at_rest
 from tests.support.fake_stations.serving import serving
+from tests.support.pairing import new_key
 
 SECONDS, WATCHERS = 20.0, 50
 TELEMETRY_S, TICK_S = 0.01, 0.02
@@ -56,8 +59,11 @@ def main() -> None:
     """Measure and print; with an address, be a client."""
     if len(sys.argv) > 1 and sys.argv[1].startswith("http"):
         url, given_s, count = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
-        times = asyncio.run(_watch_all(url, given_s, count)) if count else _read(url, given_s)
-        print(json.dumps(times))
+        key = {"Authorization": f"Bearer {sys.argv[4]}"}
+        if count:
+            print(json.dumps(asyncio.run(_watch_all(url, key, given_s, count))))
+        else:
+            print(json.dumps(_read(url, key, given_s)))
         return
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else SECONDS
     watchers = int(sys.argv[2]) if len(sys.argv) > 2 else WATCHERS
@@ -84,8 +90,9 @@ async def _measure(folder: Path, seconds: float, watchers: int) -> Times:
             began_s, began_cpu_s = time.perf_counter(), time.process_time()
             loop_times = _listen(services)
             helpers = [asyncio.create_task(_tick(loop_times)), asyncio.create_task(_work(services))]
+            key = await new_key(services.access, Scope.READ)
             pushes_ms, reads_ms = await asyncio.gather(
-                _client(url, seconds, watchers), _client(url, seconds, 0)
+                _client(url, key, seconds, watchers), _client(url, key, seconds, 0)
             )
             for helper in helpers:
                 helper.cancel()
@@ -99,9 +106,9 @@ async def _measure(folder: Path, seconds: float, watchers: int) -> Times:
             } | loop_times
 
 
-async def _client(url: str, seconds: float, watchers: int) -> list[float]:
+async def _client(url: str, key: str, seconds: float, watchers: int) -> list[float]:
     client = await asyncio.create_subprocess_exec(
-        *(sys.executable, "-m", "tests.bench.latency", url, str(seconds), str(watchers)),
+        *(sys.executable, "-m", "tests.bench.latency", url, str(seconds), str(watchers), key),
         stdout=asyncio.subprocess.PIPE,
     )
     output, _ = await client.communicate()
@@ -148,26 +155,28 @@ async def _work(services: Services) -> None:
             await services.runner.wait()
 
 
-def _read(url: str, seconds: float) -> list[float]:
+def _read(url: str, key: dict[str, str], seconds: float) -> list[float]:
     times_ms: list[float] = []
     parts = urlsplit(url)
     connection = http.client.HTTPConnection(str(parts.hostname), parts.port)
     until_s = time.perf_counter() + seconds
     while time.perf_counter() < until_s:
         asked_s = time.perf_counter()
-        connection.request("GET", "/api/v1/robot")
+        connection.request("GET", "/api/v1/robot", headers=key)
         answer = connection.getresponse()
         answer.read()
+        if answer.status != HTTPStatus.OK:
+            raise SystemExit(f"GET /robot: {answer.status} {answer.reason}")
         times_ms.append(1000 * (time.perf_counter() - asked_s))
         time.sleep(READ_PAUSE_S)
     connection.close()
     return times_ms
 
 
-async def _watch_all(url: str, seconds: float, watchers: int) -> list[float]:
+async def _watch_all(url: str, key: dict[str, str], seconds: float, watchers: int) -> list[float]:
     ages_ms: list[float] = []
     address = url.replace("http", "ws", 1) + "/api/v1/ws"
-    sockets = [await connect(address, proxy=None) for _ in range(watchers)]
+    sockets = [await connect(address, additional_headers=key, proxy=None) for _ in range(watchers)]
     watching = [asyncio.create_task(_watch(socket, ages_ms)) for socket in sockets]
     await asyncio.sleep(seconds)
     for task in watching:

@@ -46,7 +46,8 @@ def main() -> None:
         print(f"memory, twin loaded   {_resident_mib(server):.0f} MiB")
         print(f"idle CPU              {_cpu_percent(server, IDLE_S):.1f} % of one core")
         asyncio.run(_measure_pushes(server))
-        httpx.get(f"{server.url}/api/v1/camera/snapshot.jpg").raise_for_status()
+        with server.rest() as client:
+            client.get("camera/snapshot.jpg").raise_for_status()
         print(f"memory, after a picture of the simulated camera   {_resident_mib(server):.0f} MiB")
     print(f"\n{ANCHORS}")
 
@@ -55,13 +56,13 @@ def _start_to_usable() -> float:
     """From launching the process to the first answer of its API [s]."""
     launched_s = time.perf_counter()
     with serving() as server:
-        httpx.get(f"{server.url}/api/v1/robot").raise_for_status()
+        httpx.get(f"{server.url}/api/v1/health").raise_for_status()
         return time.perf_counter() - launched_s
 
 
 def _wait_for_twin(server: ServerProcess) -> None:
     """Wait for the 3D picture and load its page once, as a browser does."""
-    httpx.get(f"{server.url}/twin/", timeout=30).raise_for_status()
+    httpx.get(f"{server.url}/twin/", headers=server.headers, timeout=30).raise_for_status()
 
 
 async def _measure_pushes(server: ServerProcess) -> None:
@@ -77,12 +78,17 @@ async def _measure_pushes(server: ServerProcess) -> None:
 async def _command_to_push(server: ServerProcess, watchers: int) -> list[float]:
     """From sending stop or reset until every watcher has the new mode [ms]."""
     address = server.url.replace("http", "ws", 1) + "/api/v1/ws"
-    sockets = [await connect(address, proxy=None) for _ in range(watchers)]
+    sockets = [
+        await connect(address, additional_headers=server.headers, proxy=None)
+        for _ in range(watchers)
+    ]
     times_ms = []
     try:
         for socket in sockets:
             await socket.recv()
-        async with httpx.AsyncClient(base_url=f"{server.url}/api/v1") as client:
+        async with httpx.AsyncClient(
+            base_url=f"{server.url}/api/v1", headers=server.headers
+        ) as client:
             for number in range(COMMANDS):
                 command, modes = ("stop", {"stopped"}) if number % 2 == 0 else ("reset", {"off"})
                 sent_s = time.perf_counter()

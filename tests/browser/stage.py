@@ -14,8 +14,11 @@ import uvicorn
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
 from fastapi.responses import HTMLResponse, JSONResponse
 
+from server.access import Role
+from server.access.rights import ROLE_RIGHTS
 from server.api.pages import pages_router
 from server.jobs.model import JobPhase, JobState
+from server.schema.access import AccessSession, PersonSummary
 from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
 from server.schema.robot import Reach, WayLeft
@@ -30,6 +33,15 @@ VEHICLES = VehicleList(
         Vehicle(id="id3", name="Volkswagen ID.3", label_payload="PP2:id3:AAAAAAAAAA"),
         Vehicle(id="zoe", name="Renault Zoe", label_payload="PP2:zoe:AAAAAAAAAA"),
     ]
+)
+
+OWNER = AccessSession(
+    paired=True,
+    person=PersonSummary(id="anna", name="Anna", role=Role.OWNER, ends_at=None),
+    device_id="phone",
+    rights=sorted(ROLE_RIGHTS[Role.OWNER]),
+    passkeys=False,
+    screen=False,
 )
 
 PAST_JOB = job(JobPhase.PARKING, state=JobState.SUCCEEDED).model_copy(
@@ -70,6 +82,8 @@ class Stage:
         self.app = FastAPI()
         self.app.include_router(pages_router(STATIC_DIR))
         self.app.websocket("/api/v1/ws")(self._send_live)
+        self.app.get("/api/v1/access/session")(self._session)
+        self.app.get("/api/v1/access/{entries}")(self._nothing)
         self.app.get("/api/v1/vehicles")(self._vehicles)
         self.app.get("/api/v1/jobs")(self._jobs)
         self.app.get("/api/v1/jobs/{job_id}/playback")(self._playback)
@@ -104,6 +118,13 @@ class Stage:
             if getattr(self.live, name) != getattr(shown, name)
         }
         return LiveChanges(robot=robot, **differing)
+
+    async def _session(self) -> AccessSession:
+        return OWNER
+
+    async def _nothing(self, entries: str) -> dict[str, object]:
+        del entries
+        return {"items": [], "next_cursor": None}
 
     async def _vehicles(self) -> VehicleList:
         return VEHICLES

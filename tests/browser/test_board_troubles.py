@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
@@ -25,6 +24,7 @@ def phone_of(browser: Browser, server: ServerProcess) -> Iterator[Page]:
     context = browser.new_context(
         viewport={"width": PHONE["width"], "height": PHONE["height"]}, has_touch=True
     )
+    server.let_in(context)
     page = context.new_page()
     page.goto(server.url)
     yield page
@@ -114,7 +114,8 @@ def test_a_board_that_is_not_there(browser: Browser, tmp_path: Path) -> None:
         phone_of(browser, server) as page,
     ):
         expect_words(page, "No motion board at its port", device, "--port /dev/ttyUSB0")
-        fault = httpx.get(f"{server.url}/api/v1/robot", trust_env=False).json()["fault"]
+        with server.rest() as client:
+            fault = client.get("robot").json()["fault"]
         assert fault["code"] == "board_not_found"
         # The pages, the pictures and the API are there all the same.
         expect(page.locator(".link")).to_have_attribute("data-link", "live")

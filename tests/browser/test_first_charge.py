@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
@@ -28,6 +27,7 @@ def phone(browser: Browser, server: ServerProcess) -> Iterator[Page]:
     context = browser.new_context(
         viewport={"width": PHONE["width"], "height": PHONE["height"]}, has_touch=True
     )
+    server.let_in(context)
     page = context.new_page()
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
@@ -45,18 +45,18 @@ def test_two_taps_plug_the_car_in_and_one_unplugs_it(phone: Page, server: Server
     stop_and_unplug = phone.get_by_role("button", name="Stop and unplug")
     stop_and_unplug.wait_for(timeout=JOB_TIMEOUT_MS)
     expect(phone.get_by_role("heading", level=1)).to_have_text("Your car is charging")
-    with httpx.Client(base_url=f"{server.url}/api/v1") as client:
-        (job,) = client.get("/jobs").json()["items"]
+    with server.rest() as client:
+        (job,) = client.get("jobs").json()["items"]
         assert job["phase"] == "charging"
         assert abs(job["result"]["insertion_depth_mm"] - 40) <= 1
-        assert client.get("/robot").json()["plug"] == "inserted"
+        assert client.get("robot").json()["plug"] == "inserted"
 
         stop_and_unplug.tap()
 
         phone.get_by_role("button", name="Charge", exact=True).wait_for(timeout=JOB_TIMEOUT_MS)
-        (job,) = client.get("/jobs").json()["items"]
+        (job,) = client.get("jobs").json()["items"]
         assert job["state"] == "succeeded"
-        assert client.get("/robot").json()["plug"] == "parked"
+        assert client.get("robot").json()["plug"] == "parked"
 
 
 def test_stop_halts_the_robot_and_releasing_it_asks_first(
@@ -68,33 +68,36 @@ def test_stop_halts_the_robot_and_releasing_it_asks_first(
 
     stop.tap()
 
-    with httpx.Client(base_url=f"{server.url}/api/v1") as client:
+    with server.rest() as client:
         release = phone.get_by_role("button", name="Release the stop")
         release.wait_for(timeout=JOB_TIMEOUT_MS)
-        assert client.get("/robot").json()["mode"] == "stopped"
-        (job, _) = client.get("/jobs").json()["items"]
+        assert client.get("robot").json()["mode"] == "stopped"
+        (job, _) = client.get("jobs").json()["items"]
         assert (job["state"], job["error"]["code"]) == ("failed", "stopped")
 
         release.tap()
-        assert client.get("/robot").json()["mode"] == "stopped", "a dialog must ask first"
+        assert client.get("robot").json()["mode"] == "stopped", "a dialog must ask first"
         phone.get_by_role("dialog").get_by_role("button", name="Yes, release").tap()
 
         phone.get_by_role("button", name="Try again").wait_for(timeout=JOB_TIMEOUT_MS)
-        assert client.get("/robot").json()["mode"] == "ready"
+        assert client.get("robot").json()["mode"] == "ready"
 
 
 def test_a_job_that_is_not_possible_is_explained(phone: Page, server: ServerProcess) -> None:
-    httpx.delete(f"{server.url}/api/v1/vehicles/demo").raise_for_status()
+    with server.rest() as client:
+        client.delete("vehicles/demo").raise_for_status()
 
     phone.get_by_role("button", name="Try again").tap()
 
     expect(phone.get_by_text("No car is known yet")).to_be_visible()
-    assert httpx.get(f"{server.url}/api/v1/robot").json()["mode"] == "ready"
+    with server.rest() as client:
+        assert client.get("robot").json()["mode"] == "ready"
 
 
 def test_a_lost_server_is_said_without_pushing_the_page_aside(browser: Browser) -> None:
     with serving("--speed", SPEED) as server:
         context = browser.new_context(viewport={"width": PHONE["width"], "height": PHONE["height"]})
+        server.let_in(context)
         page = context.new_page()
         page.goto(server.url)
         expect(page.get_by_role("heading", level=1)).to_have_text("Ready when you are")

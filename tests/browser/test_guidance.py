@@ -66,14 +66,15 @@ def _picture(page: Page, name: str) -> None:
 
 
 def _tell(client: httpx.Client, **order: object) -> dict[str, Any]:
-    answer = client.post("/simulation/car", json=order)
+    answer = client.post("simulation/car", json=order)
     answer.raise_for_status()
     now: dict[str, Any] = answer.json()
     return now
 
 
 def test_a_driver_parks_by_the_phone(phone: Page, server: ServerProcess) -> None:
-    with httpx.Client(base_url=f"{server.url}/api/v1", timeout=20) as client:
+    server.let_in(phone.context)
+    with server.rest() as client:
         _tell(client, type="drive_in", from_mm=3000, past_mm=25)
         phone.goto(server.url)
         number = phone.locator(f"{CARD} .order-number strong")
@@ -94,7 +95,7 @@ def test_a_driver_parks_by_the_phone(phone: Page, server: ServerProcess) -> None
                 good.wait_for(timeout=6_000)
                 break
             except NotYetError:
-                guidance = client.get("/guidance").json()
+                guidance = client.get("guidance").json()
                 ways = {s["direction"]: s["distance_mm"] for s in guidance["steps"]}
                 forward = ways.get("forward", 0) - ways.get("back", 0)
                 _picture(phone, "correcting")
@@ -103,15 +104,17 @@ def test_a_driver_parks_by_the_phone(phone: Page, server: ServerProcess) -> None
         _picture(phone, "good")
         expect(phone.locator(f"{CARD} [aria-live=polite]")).to_contain_text("Stop here")
 
-        truth = client.get("/simulation/car").json()
-        seen = client.get("/guidance").json()["car"]
+        truth = client.get("simulation/car").json()
+        seen = client.get("guidance").json()["car"]
         assert abs(seen["x_mm"] - truth["x_mm"]) < 1.5
         assert abs(seen["z_mm"] - truth["z_mm"]) < 1.5
 
 
 def test_the_page_s_own_pedals_drive_the_simulated_car(phone: Page, server: ServerProcess) -> None:
+    server.let_in(phone.context)
     phone.goto(server.url)
     card = phone.locator(CARD)
+    card.wait_for(timeout=PATIENCE_MS)
     toggle = card.get_by_role("button", name="Parking guidance")
     if toggle.count():
         toggle.tap()
@@ -120,8 +123,8 @@ def test_the_page_s_own_pedals_drive_the_simulated_car(phone: Page, server: Serv
     card.get_by_role("button", name="Brake").tap()
     card.get_by_role("button", name="Leave").tap()
     expect(card.locator(".car-above")).to_have_count(0, timeout=PATIENCE_MS)
-    with httpx.Client(base_url=f"{server.url}/api/v1") as client:
-        assert client.get("/simulation/car").json()["z_mm"] > 800
+    with server.rest() as client:
+        assert client.get("simulation/car").json()["z_mm"] > 800
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

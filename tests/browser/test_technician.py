@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
@@ -31,6 +30,7 @@ def server(browser: Browser) -> Iterator[ServerProcess]:
     """The real server on the simulator, at the pace of a real robot, made ready on the page."""
     with serving("--speed", "1", "--seed", "3") as running:
         page = browser.new_page()
+        running.let_in(page.context)
         page.goto(f"{running.url}/technician")
         page.get_by_role("button", name="Switch drives on").click()
         page.get_by_role("button", name="Find position").click()
@@ -50,6 +50,7 @@ def context(browser: Browser) -> Iterator[BrowserContext]:
 @pytest.fixture
 def bench(context: BrowserContext, server: ServerProcess) -> Iterator[Page]:
     """The page, live; it may not meet a single script error."""
+    server.let_in(context)
     page = context.new_page()
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
@@ -138,7 +139,8 @@ def _hold(page: Page, name: str) -> None:
 
 
 def _rho1_mm(server: ServerProcess) -> float:
-    robot = httpx.get(f"{server.url}/api/v1/robot").json()
+    with server.rest() as client:
+        robot = client.get("robot").json()
     return float(robot["measured"]["joints"]["rho1_mm"])
 
 

@@ -51,7 +51,7 @@ def _assert_told_in_words(run: subprocess.CompletedProcess[str], *words: str) ->
 
 
 def _rest(server: ServerProcess) -> httpx.Client:
-    return httpx.Client(base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0)
+    return server.rest()
 
 
 def _until(condition: Callable[[], bool]) -> None:
@@ -81,7 +81,11 @@ def test_it_says_where_it_is_once_and_ends_soon_with_everybody_watching(tmp_path
         stdout,
         _rest(server) as client,
         client.stream("GET", "camera/stream.mjpg") as stream,
-        connect(server.url.replace("http", "ws") + "/api/v1/ws", proxy=None) as watcher,
+        connect(
+            server.url.replace("http", "ws") + "/api/v1/ws",
+            additional_headers=server.headers,
+            proxy=None,
+        ) as watcher,
     ):
         next(stream.iter_bytes())
         watcher.recv()
@@ -93,7 +97,8 @@ def test_it_says_where_it_is_once_and_ends_soon_with_everybody_watching(tmp_path
         status = server.process.wait(20)
         assert time.monotonic() - asked_s < ENDS_WITHIN_S
         assert status == 0
-        assert stdout.read() == ""
+        (invitation,) = stdout.read().splitlines()
+        assert invitation.startswith(f"Pair your browser, once: {server.url}/#pair=")
     # everything is on disk, and nothing was left for SQLite to repair
     assert not (tmp_path / "data" / "plugpilot.sqlite3-wal").exists()
     with sqlite3.connect(tmp_path / "data" / "plugpilot.sqlite3") as database:
@@ -124,7 +129,10 @@ async def _is_connected(client: httpx.AsyncClient) -> bool:
 async def test_requests_that_come_at_the_same_time_give_one_job() -> None:
     with serving() as server:
         async with httpx.AsyncClient(
-            base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0
+            base_url=f"{server.url}/api/v1/",
+            headers=server.headers,
+            trust_env=False,
+            timeout=20.0,
         ) as client:
             await eventually(partial(_is_connected, client))
             key = {"Idempotency-Key": "twice"}
@@ -179,12 +187,21 @@ def test_a_damaged_database_is_told_and_left_alone_and_the_robot_starts(tmp_path
     damaged = tmp_path / "plugpilot.sqlite3"
     damaged.write_text(json.dumps({"this is": "no database"}) * 100)
     before = damaged.read_bytes()
-    with serving(data_dir=tmp_path) as server, _rest(server) as client:
+    with (
+        serving(data_dir=tmp_path) as server,
+        httpx.Client(base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0) as client,
+    ):
         health = client.get("health").json()
         assert health["status"] == "degraded"
         assert health["components"]["storage"]["status"] == "down"
         assert "plugpilot restore" in health["components"]["storage"]["detail"]
         assert client.post("robot/stop").status_code < 300
+        # Nobody is known, so the terminal lets somebody in; the plug may have to come out.
+        assert server.process.stdout is not None
+        secret = server.process.stdout.readline().strip().partition("#pair=")[2]
+        assert client.get("robot").status_code == 401
+        assert client.post("access/pairing", json={"secret": secret}).status_code == 200
+        assert client.post("robot/reset").status_code == 200
     assert damaged.read_bytes() == before
 
 
@@ -199,11 +216,12 @@ def test_a_driver_that_is_not_there_yet_is_told_in_a_sentence(tmp_path: Path) ->
     _assert_told_in_words(run, "teleporter")
 
 
-def test_the_start_line_is_all_there_is() -> None:
+def test_the_start_line_and_the_invitation_are_all_there_is() -> None:
     with serving() as server:
         assert server.url.startswith("http://127.0.0.1:")
         assert READY not in server.url
         status = server.stop()
         assert status == 0
         assert server.process.stdout is not None
-        assert server.process.stdout.read() == ""
+        (invitation,) = server.process.stdout.read().splitlines()
+        assert invitation.startswith(f"Pair your browser, once: {server.url}/#pair=")

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, TypeVar
 
 import httpx
 
+from server.access import Scope
 from server.api.app import PREFIX, create_app
+from server.api.gate.caller import COOKIE
 from server.config.settings import Settings
 from server.schema.problem import TYPE_PREFIX
 from tests.support.garage import Scene, on_scene
+from tests.support.pairing import new_device, new_key
 
 T = TypeVar("T")
 
@@ -22,16 +25,28 @@ def on_api(
     seed: int = 4,
     parked: bool = False,
     settings: Settings | None = None,
+    scopes: Sequence[Scope] = (),
 ) -> T:
-    """Run a scenario with a client of the API. Paths are relative to /api/v1/."""
+    """Run a scenario with a client of the API. Paths are relative to /api/v1/.
+
+    The client is the owner's browser, or a program that has a key of some scopes.
+    """
 
     async def with_client(scene: Scene) -> T:
         app = create_app(lambda: contextlib.nullcontext(scene.services))
+        access = scene.services.access
+        headers, cookies = {}, {}
+        if scopes:
+            headers["Authorization"] = f"Bearer {await new_key(access, *scopes)}"
+        else:
+            cookies[COOKIE] = await new_device(access)
         async with (
             app.router.lifespan_context(app),
             httpx.AsyncClient(
                 transport=httpx.ASGITransport(app, raise_app_exceptions=False),
                 base_url=f"http://plugpilot{PREFIX}/",
+                headers=headers,
+                cookies=cookies,
             ) as client,
         ):
             return await scenario(scene, client)

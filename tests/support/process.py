@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import subprocess
@@ -10,11 +11,22 @@ import tempfile
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
+import httpx
+from playwright.sync_api import BrowserContext
+
+from server.access import Scope
+from server.access.recovery import invite_owner
+from server.config.access import AccessSettings
+from server.config.storage import StorageSettings
+
 READY = "PlugPilot is ready: "
+INVITATION = "Pair your browser, once: "
 START_TIMEOUT_S = 60.0
 STOP_TIMEOUT_S = 10.0
 
@@ -27,11 +39,56 @@ class ServerProcess:
         process: The process.
         url: Where it listens, such as http://127.0.0.1:40123.
         started_s: From its launch to the line that says so.
+        data_dir: Its data folder.
     """
 
     process: subprocess.Popen[str]
     url: str
     started_s: float
+    data_dir: Path
+
+    @cached_property
+    def cookies(self) -> dict[str, str]:
+        """What the server gave to a browser that was paired as an owner's."""
+        with ThreadPoolExecutor(1) as beside_any_loop:
+            invitation = invite_owner(StorageSettings(data_dir=self.data_dir), AccessSettings())
+            secret = beside_any_loop.submit(asyncio.run, invitation).result()
+        answer = httpx.post(
+            f"{self.url}/api/v1/access/pairing", json={"secret": secret}, trust_env=False
+        )
+        answer.raise_for_status()
+        return dict(answer.cookies)
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What a paired browser sends with every request."""
+        return {"Cookie": "; ".join(f"{name}={value}" for name, value in self.cookies.items())}
+
+    def new_key(self, *scopes: Scope) -> str:
+        """A key as a program sends it."""
+        with self.rest() as owner:
+            made = owner.post("access/keys", json={"name": "test", "scopes": list(scopes)})
+        made.raise_for_status()
+        key: str = made.json()["key"]
+        return key
+
+    def rest(self, timeout_s: float = 20.0) -> httpx.Client:
+        """A client of the API that is paired."""
+        return httpx.Client(
+            base_url=f"{self.url}/api/v1/",
+            headers=self.headers,
+            trust_env=False,
+            timeout=timeout_s,
+        )
+
+    def let_in(self, context: BrowserContext) -> None:
+        """Pair a browser."""
+        context.add_cookies(
+            [
+                {"name": name, "value": value, "url": self.url}
+                for name, value in self.cookies.items()
+            ]
+        )
 
     def kill(self) -> None:
         """End it as a power cut would."""
@@ -89,5 +146,5 @@ def start(*options: str, data_dir: Path, cwd: Path) -> ServerProcess:
         process.wait()
         raise AssertionError(f"the server did not start; it printed {line!r}")
     return ServerProcess(
-        process, line.removeprefix(READY).strip(), time.perf_counter() - launched_s
+        process, line.removeprefix(READY).strip(), time.perf_counter() - launched_s, data_dir
     )

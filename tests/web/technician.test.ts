@@ -1,6 +1,7 @@
 import { cleanup, fireEvent, render, screen, waitFor } from "@testing-library/preact";
 import { h } from "preact";
 import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
+import { session } from "@/access/session";
 import type { Live } from "@/api/wire";
 import { channel } from "@/live/page";
 import { pending } from "@/robot/actions";
@@ -33,6 +34,7 @@ beforeEach(() => {
   step.value = "hold";
   speed_mm_s.value = 5;
   trouble.value = null;
+  session.value = null;
   channel.start();
   render(h(Technician, null));
 });
@@ -105,6 +107,33 @@ describe("jogging by holding", () => {
     press("Up");
     fireEvent.click(button("20"));
     expect(sent().at(-1)).toEqual({ type: "jog_end" });
+  });
+});
+
+describe("somebody who may only look", () => {
+  const looking = {
+    paired: true,
+    person: { id: "1", name: "Anna", role: "viewer", ends_at: null },
+    device_id: "2",
+    rights: ["anyone", "person", "read", "stop"],
+    passkeys: false,
+    screen: false,
+  } as const;
+
+  test("cannot jog, and reads why", async () => {
+    session.value = looking;
+    show(live());
+    await screen.findByText(/Only a technician or an owner/);
+    press("Up");
+    expect(sent()).toEqual([]);
+    expect(button("Find position").disabled).toBe(true);
+  });
+
+  test("can stop all the same", async () => {
+    session.value = looking;
+    show(live());
+    fireEvent.click(await screen.findByRole("button", { name: "Stop" }));
+    expect(sent().at(-1)).toEqual({ type: "stop" });
   });
 });
 

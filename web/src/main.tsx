@@ -1,6 +1,7 @@
 import { render } from "preact";
+import { Door } from "./access/door";
+import { begin } from "./access/session";
 import { App } from "./app";
-import { connect } from "./live/page";
 import "./style/tokens.css";
 import "./style/page.css";
 import "./style/controls.css";
@@ -12,8 +13,9 @@ import "./style/history.css";
 import "./guidance/guidance.css";
 import "./style/plan.css";
 import "./style/notices.css";
+import "./access/access.css";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("index.html has no element #app");
-connect();
-render(<App />, root);
+render(<Door page={App} />, root);
+void begin();

@@ -2,13 +2,18 @@
 # Plugs the car in and waits until that is done. Ends with 0 when the plug is in.
 #
 #   PLUGPILOT_URL=http://plugpilot.local:8000 PLUGPILOT_TOKEN=... sh plug_in.sh
+#
+# The token is a key that may start and end jobs. An owner makes it on the home page: People and
+# devices, Keys.
 set -eu
 
 api="${PLUGPILOT_URL:-http://127.0.0.1:8000}/api/v1"
 
+: "${PLUGPILOT_TOKEN:?must hold a key of the robot}"
+
 call() {
     curl --silent --show-error --fail-with-body --max-time 10 \
-        --header "Authorization: Bearer ${PLUGPILOT_TOKEN:-}" "$@"
+        --header "Authorization: Bearer $PLUGPILOT_TOKEN" "$@"
 }
 
 text_of() { # the value of a text field of flat JSON

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from server.api.dependencies import ServicesDep
 from server.api.errors import InvalidRequestError
+from server.api.gate import admit_message, caller_of
 from server.errors import InternalError, PlugPilotError
 from server.schema.live import (
     ClientMessage,
@@ -63,6 +64,7 @@ class _Connection:
     def __init__(self, socket: WebSocket, services: Services) -> None:
         self._socket = socket
         self._services = services
+        self._caller = caller_of(socket)
         self._sending = asyncio.Lock()
         self._pushing: asyncio.Task[None] | None = None
         self._jogging = False
@@ -123,6 +125,7 @@ class _Connection:
     async def _answer(self, message: ClientMessage) -> None:
         error: PlugPilotError | None = None
         try:
+            admit_message(self._services.access, self._caller, message.type)
             await self._carry_out(message)
         except PlugPilotError as caught:
             error = caught

@@ -49,12 +49,35 @@ class _Head(msgspec.Struct):
     type: str
 
 
+_Vector = tuple[float, float, float]
+
+
+class _ViewerCamera(msgspec.Struct, forbid_unknown_fields=True):
+    """As the library expects it; its own handler fails at anything else."""
+
+    type: str
+    wxyz: tuple[float, float, float, float]
+    position: _Vector
+    fov: float
+    near: float
+    far: float
+    image_height: float
+    image_width: float
+    look_at: _Vector
+    up_direction: _Vector
+
+
+_SHAPES: dict[str, type[msgspec.Struct]] = {"ViewerCameraMessage": _ViewerCamera}
+
+
 def message_type(raw: bytes) -> str | None:
-    """Type of a client message, None if it is not one."""
+    """Type of a client message, None if it is not one or has not what its type must have."""
     try:
-        return msgspec.msgpack.decode(raw, type=_Head).type
+        kind = msgspec.msgpack.decode(raw, type=_Head).type
+        msgspec.msgpack.decode(raw, type=_SHAPES.get(kind, _Head))
     except (msgspec.DecodeError, UnicodeDecodeError):
         return None
+    return kind
 
 
 def is_own_page(ws: WebSocket) -> bool:

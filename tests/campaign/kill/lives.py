@@ -15,7 +15,8 @@ from pathlib import Path
 
 import httpx
 
-READY = "PlugPilot is ready: "
+from tests.support.process import READY, ServerProcess
+
 START_S = 120.0
 PROJECT = Path(__file__).parents[3]
 DATABASE = "plugpilot.sqlite3"
@@ -77,8 +78,10 @@ def launch(socket: Path, folder: Path, speed: float) -> subprocess.Popen[str]:
 
 
 @contextlib.contextmanager
-def alive(process: subprocess.Popen[str], launched_at: float) -> Iterator[Life]:
+def alive(process: subprocess.Popen[str], launched_at: float, folder: Path) -> Iterator[Life]:
     """Wait until a server is ready, and see to it that it has ended afterwards.
+
+    The client is an owner's who is paired anew, as a person would be whose phone is not known.
 
     Raises:
         ServerDiedError: it has not come so far.
@@ -91,9 +94,11 @@ def alive(process: subprocess.Popen[str], launched_at: float) -> Iterator[Life]:
         overdue.cancel()
         if not line.startswith(READY):
             raise ServerDiedError
-        address = f"{line.removeprefix(READY).strip()}/api/v1/"
-        with httpx.Client(base_url=address, trust_env=False, timeout=60.0) as client:
-            yield Life(process, client, launched_at, time.time())
+        ready_at = time.time()
+        url = line.removeprefix(READY).strip()
+        server = ServerProcess(process, url, ready_at - launched_at, folder)
+        with server.rest(timeout_s=60.0) as client:
+            yield Life(process, client, launched_at, ready_at)
     except httpx.TransportError as error:
         raise ServerDiedError from error
     finally:

@@ -135,7 +135,7 @@ class _Teller:
             early = threading.Timer(float(self._rng.uniform(0.0, STARTING_S)), process.kill)
             early.start()
         try:
-            with alive(process, launched_at) as life:
+            with alive(process, launched_at, self._folder) as life:
                 if not self._requested:
                     self._request(life)
                     if dies:

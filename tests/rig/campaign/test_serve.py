@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 
 from tests.rig.build import Programs
@@ -62,7 +61,7 @@ def plug_in(folder: Path) -> dict[str, Any]:
     with (
         standing_board(folder) as port,
         serving("--driver", "arduino", "--port", str(port), "--seed", SEED) as server,
-        httpx.Client(base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0) as client,
+        server.rest() as client,
     ):
         until(lambda: client.get("robot").json()["mode"] != "offline")
         accepted = client.post("jobs", json={"type": "plug_in"})

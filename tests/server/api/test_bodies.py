@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 import httpx
 import pytest
 
-from server.api.bodies import LARGEST_BODY, LONGEST_WAIT_S
+from server.api.gate.body import MAX_BYTES, PATIENCE_S
 from server.jobs.model import JobType
 from tests.support.api import on_api, problem
 from tests.support.garage import Scene
@@ -30,13 +30,13 @@ def test_a_huge_body_is_refused_before_it_is_read() -> None:
         said = {**JSON, "Content-Length": str(10**12)}
         problem(await client.post("jobs", content=b"{}", headers=said), 413, "body_too_large")
         problem(
-            await client.post("jobs", content=b" " * (LARGEST_BODY + 1), headers=JSON),
+            await client.post("jobs", content=b" " * (MAX_BYTES + 1), headers=JSON),
             413,
             "body_too_large",
         )
         problem(await client.post("jobs", content=endless(), headers=JSON), 413, "body_too_large")
-        assert read <= LARGEST_BODY + 2 * 65536
-        stop = await client.post("robot/stop", content=b"x" * (LARGEST_BODY + 1))
+        assert read <= MAX_BYTES + 2 * 65536
+        stop = await client.post("robot/stop", content=b"x" * (MAX_BYTES + 1))
         assert stop.status_code == 200, "nothing can be wrong with a stop"
 
     on_api(scenario)
@@ -51,7 +51,7 @@ def test_a_body_that_does_not_come_is_given_up() -> None:
     async def scenario(scene: Scene, client: Client) -> None:
         began_s = scene.now_s
         problem(await client.post("jobs", content=trickle(), headers=JSON), 408, "body_too_slow")
-        assert LONGEST_WAIT_S - 1 < scene.now_s - began_s < 1.5 * LONGEST_WAIT_S
+        assert PATIENCE_S - 1 < scene.now_s - began_s < 1.5 * PATIENCE_S
 
     on_api(scenario)
 
@@ -61,7 +61,7 @@ def test_a_body_that_does_not_come_is_given_up() -> None:
     [
         (b"", 422, "invalid_request"),
         (b"{", 400, "malformed_json"),
-        (b"[" * 100_000, 400, "malformed_json"),
+        (b"[" * 60_000, 400, "malformed_json"),
         (b"\xff\xfe", 400, "malformed_json"),
         (b'{"type": "charge", "type": 5}', 422, "invalid_request"),
         (b'{"type": ["charge"]}', 422, "invalid_request"),

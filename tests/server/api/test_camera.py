@@ -29,7 +29,7 @@ async def _stream(server: ServerProcess) -> AsyncIterator[AsyncIterator[bytes]]:
     """The JPEGs of the stream, as a browser cuts them out of it."""
     address = f"{server.url}/api/v1/camera/stream.mjpg"
     async with (
-        httpx.AsyncClient(trust_env=False, timeout=10.0) as client,
+        httpx.AsyncClient(headers=server.headers, trust_env=False, timeout=10.0) as client,
         client.stream("GET", address) as response,
     ):
         kind, _, boundary = response.headers["content-type"].partition("; boundary=")
@@ -64,7 +64,7 @@ async def _done(client: httpx.AsyncClient, address: str) -> bool:
 
 
 async def test_a_snapshot_shows_the_label(server: ServerProcess) -> None:
-    async with httpx.AsyncClient(trust_env=False) as client:
+    async with httpx.AsyncClient(headers=server.headers, trust_env=False) as client:
         await eventually(lambda: _done(client, f"{server.url}/api/v1/robot/enable"))
         assert await _done(client, f"{server.url}/api/v1/robot/home")
         answer = await client.get(f"{server.url}/api/v1/camera/snapshot.jpg")

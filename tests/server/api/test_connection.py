@@ -9,7 +9,9 @@ from typing import Any, cast
 
 import pytest
 from fastapi import WebSocket
+from starlette.datastructures import State
 
+from server.access import Caller, Need
 from server.api.routes.live import MAX_INVALID, MAX_UNANSWERED, live
 from tests.support.garage import Scene, on_scene
 
@@ -28,6 +30,7 @@ class Client:
         self.takes = asyncio.Event()
         self.takes.set()
         self.closed: int | None = None
+        self.state = State({"caller": Caller("machine", "", "", frozenset(Need), "")})
         self._incoming: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
         self.served = asyncio.create_task(live(cast("WebSocket", self), scene.services))
 

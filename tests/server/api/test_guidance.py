@@ -9,7 +9,7 @@ import json
 
 import httpx
 
-from server.api.app import PREFIX, create_app
+from server.api.app import create_app
 from server.schema.guidance import Guidance
 from server.schema.simulation import SimulatedCarNow
 from tests.support.api import on_api, problem
@@ -99,13 +99,14 @@ def test_everyone_who_watches_gets_it_pushed_at_the_pace_of_the_looks() -> None:
 
 def test_before_a_real_camera_there_is_no_simulated_car() -> None:
     async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
-        del client
         services = dataclasses.replace(scene.services, simulated_car=None)
         app = create_app(lambda: contextlib.nullcontext(services))
         transport = httpx.ASGITransport(app)
         async with (
             app.router.lifespan_context(app),
-            httpx.AsyncClient(transport=transport, base_url=f"http://plugpilot{PREFIX}/") as other,
+            httpx.AsyncClient(
+                transport=transport, base_url=client.base_url, cookies=client.cookies
+            ) as other,
         ):
             problem(await other.get("simulation/car"), 409, "not_simulated")
             problem(

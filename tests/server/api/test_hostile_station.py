@@ -11,6 +11,7 @@ import pytest
 
 from drivers.station.settings import OpenevseSettings
 from server.api.app import PREFIX, create_app
+from server.api.gate.caller import COOKIE
 from server.composition import running
 from server.config.settings import Settings
 from server.config.station import StationSettings
@@ -18,6 +19,7 @@ from server.services import Services
 from tests.support.api import problem
 from tests.support.eventually import eventually
 from tests.support.fake_stations.serving import answering, http
+from tests.support.pairing import new_device
 
 ANSWERS = {
     "a web page": http(b"<!doctype html><title>Router login</title>", kind="text/html"),
@@ -39,7 +41,9 @@ async def server_with(url: str) -> AsyncIterator[tuple[Services, httpx.AsyncClie
         async with (
             app.router.lifespan_context(app),
             httpx.AsyncClient(
-                transport=httpx.ASGITransport(app), base_url=f"http://plugpilot{PREFIX}/"
+                transport=httpx.ASGITransport(app),
+                base_url=f"http://plugpilot{PREFIX}/",
+                cookies={COOKIE: await new_device(services.access)},
             ) as client,
         ):
             yield services, client

@@ -11,6 +11,7 @@ from typing import Any
 import jsonschema_rs
 import pytest
 
+from server.access import OPERATIONS, Need
 from server.api.examples import MODELS
 from server.api.openapi import document
 from server.api.problems import MEDIA_TYPE
@@ -19,7 +20,12 @@ from server.schema.live import ClientMessage
 PUBLISHED = Path(__file__).resolve().parents[3] / "web" / "openapi.json"
 METHODS = {"get", "put", "post", "delete", "patch"}
 PROBLEM = {"$ref": "#/components/schemas/Problem"}
-STREAMS = {"image/jpeg", "multipart/x-mixed-replace", "application/octet-stream"}
+STREAMS = {
+    "image/jpeg",
+    "multipart/x-mixed-replace",
+    "application/octet-stream",
+    "application/x-ndjson",
+}
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +112,16 @@ def test_a_wrong_example_would_be_found(contract: dict[str, Any]) -> None:
     assert validator.is_valid(good)
     for wrong in ({"created_at": "yesterday"}, {"events": ["job.exploded"]}, {"extra": 1}):
         assert not validator.is_valid({**good, **wrong}), wrong
+
+
+def test_every_operation_says_who_gets_in(contract: dict[str, Any]) -> None:
+    assert set(contract["components"]["securitySchemes"]) == {"session", "key"}
+    for where, operation in _operations(contract):
+        need = OPERATIONS[operation["operationId"]]
+        ways = [name for way in operation["security"] for name in way]
+        expected = {Need.ANYONE: [], Need.PERSON: ["session"]}.get(need, ["session", "key"])
+        assert ways == expected, where
+        assert ("401" in operation["responses"]) == bool(ways), where
 
 
 def test_every_list_comes_in_pages(contract: dict[str, Any]) -> None:

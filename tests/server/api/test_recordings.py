@@ -13,6 +13,7 @@ import pytest
 from mcap.reader import make_reader
 
 from server.api.app import PREFIX, create_app
+from server.api.gate.caller import COOKIE
 from server.composition import running
 from server.config.settings import Settings
 from server.jobs.model import JobPhase, JobState, JobType
@@ -21,6 +22,7 @@ from server.services import Services
 from tests.support.api import problem
 from tests.support.garage import Scene, on_scene
 from tests.support.jobs import job_of
+from tests.support.pairing import new_device
 
 NOW = datetime(2026, 3, 1, 18, 4, 5, tzinfo=UTC)
 SEED = 4
@@ -48,7 +50,11 @@ async def client(folder: Path | None) -> AsyncIterator[tuple[httpx.AsyncClient, 
         transport = httpx.ASGITransport(app, raise_app_exceptions=False)
         async with (
             app.router.lifespan_context(app),
-            httpx.AsyncClient(transport=transport, base_url=f"http://robot{PREFIX}/") as http,
+            httpx.AsyncClient(
+                transport=transport,
+                base_url=f"http://robot{PREFIX}/",
+                cookies={COOKIE: await new_device(services.access)},
+            ) as http,
         ):
             yield http, services
 

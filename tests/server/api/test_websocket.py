@@ -41,7 +41,7 @@ class Page:
     @asynccontextmanager
     async def opened(cls, server: ServerProcess) -> AsyncIterator[Self]:
         address = server.url.replace("http", "ws") + "/api/v1/ws"
-        async with connect(address, proxy=None) as connection:
+        async with connect(address, additional_headers=server.headers, proxy=None) as connection:
             page = cls(connection)
             await page.take()
             yield page
@@ -93,7 +93,10 @@ class Page:
 @asynccontextmanager
 async def _rest(server: ServerProcess) -> AsyncIterator[httpx.AsyncClient]:
     async with httpx.AsyncClient(
-        base_url=f"{server.url}/api/v1/", trust_env=False, timeout=20.0
+        base_url=f"{server.url}/api/v1/",
+        headers=server.headers,
+        trust_env=False,
+        timeout=20.0,
     ) as client:
         yield client
 

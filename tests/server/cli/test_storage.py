@@ -43,7 +43,9 @@ def test_a_backup_is_made_and_restored(data: Path) -> None:
     assert run.exit_code == 0
     assert "Restored safe." in run.output
     assert "set-aside" in run.output
+    assert "Nobody owns the robot now" in run.output
     assert jobs_in(data / FILE_NAME) == 30
+    assert '"operation":"restore"' in plugpilot("audit").output
 
 
 def test_a_backup_replaces_nothing(data: Path) -> None:

@@ -8,7 +8,16 @@ from pathlib import Path
 
 import psycopg
 import pytest
+from pydantic import SecretStr
+from sqlalchemy import text
 
+from server.access import Access, Role
+from server.access.audit import AuditLog, broken_links
+from server.access.errors import InvitationError
+from server.access.recovery import invite_owner
+from server.access.recovery import opened as access_of
+from server.config.access import AccessSettings
+from server.config.storage import StorageSettings
 from server.control.model import PlugState
 from server.control.plug_guard import Corridor, PlugRecord
 from server.jobs.model import JobPhase, JobState, JobType
@@ -27,9 +36,11 @@ from server.storage.postgres_home import PostgresHome
 from server.storage.restoring import restore_to_server
 from server.storage.upgrade import HEAD
 from server.storage.vehicles import VehicleStore
+from server.timing import Calendar
 from tests.server.storage.first_release import INTERRUPTED, first_release
 from tests.server.storage.samples import event, job
 from tests.server.storage.test_upgrade import differences
+from tests.support.pairing import new_device
 from tests.support.postgres import PostgresServer
 from tests.support.virtual import run_virtual, wait_until
 
@@ -84,6 +95,47 @@ def test_everything_comes_back_as_it_was(postgres: PostgresServer, tmp_path: Pat
     run_virtual(scenario())
 
 
+@pytest.mark.parametrize("statement", ["UPDATE audit SET actor = 'Eve'", "DELETE FROM audit"])
+def test_the_audit_trail_refuses_changes(
+    postgres: PostgresServer, tmp_path: Path, statement: str
+) -> None:
+    url = postgres.new_database()
+
+    async def scenario() -> None:
+        database = await opened(tmp_path, url)
+        log = AuditLog(database, Calendar().now)
+        log.record("operation", actor="person: Zoé", address="192.0.2.7", name="Grüße")
+        await log.written()
+        with pytest.raises(StorageError, match="append-only"):
+            await database.run(lambda session: session.execute(text(statement)))
+        entries = [entry async for entry in log.everything()]
+        assert [entry.detail for entry in entries] == [{"name": "Grüße"}]
+        assert list(broken_links(iter(entries))) == []
+        await log.close()
+        await database.close()
+
+    run_virtual(scenario())
+
+
+def test_the_command_line_invites_into_the_database_of_the_server(
+    postgres: PostgresServer, tmp_path: Path
+) -> None:
+    storage = StorageSettings(data_dir=tmp_path, url=SecretStr(postgres.new_database()))
+
+    async def scenario() -> None:
+        secret = await invite_owner(storage, AccessSettings())
+        async with access_of(storage, AccessSettings()) as access:
+            person, _, _ = await access.pairing.pair(secret, "Firefox/140 Linux", "192.0.2.7")
+            assert person.role is Role.OWNER
+            with pytest.raises(InvitationError):
+                await access.pairing.pair(secret, "Firefox/140 Linux", "192.0.2.7")
+        async with access_of(storage, AccessSettings()) as access:
+            assert access.register.has_owner
+        assert not (tmp_path / "plugpilot.sqlite3").exists()
+
+    run_virtual(scenario())
+
+
 def test_a_server_that_goes_and_comes_back(postgres: PostgresServer, tmp_path: Path) -> None:
     url = postgres.new_database()
 
@@ -106,6 +158,34 @@ def test_a_server_that_goes_and_comes_back(postgres: PostgresServer, tmp_path: P
         await wait_until(lambda: database.problem is None, timeout_s=3 * RETRY_S)
         assert [found.sequence for found in await jobs.events(job(1).id)] == [1, 2]
         assert await jobs.get(unplug.id) == unplug
+        await database.close()
+
+    run_virtual(scenario())
+
+
+def test_who_is_known_is_known_again_when_the_server_comes_back(
+    postgres: PostgresServer, tmp_path: Path
+) -> None:
+    url = postgres.new_database()
+
+    async def scenario() -> None:
+        database = await opened(tmp_path, url)
+        access = Access(database, Calendar(), AccessSettings())
+        await access.start()
+        cookie = await new_device(access)
+        await access.close()
+        await database.close()
+
+        postgres.stop()
+        database = await opened(tmp_path, url)
+        access = Access(database, Calendar(), AccessSettings())
+        await access.start()
+        assert access.register.caller(cookie, "192.0.2.7") is None
+        postgres.start()
+        await wait_until(lambda: database.problem is None, timeout_s=3 * RETRY_S)
+        await wait_until(lambda: access.register.has_owner)
+        assert access.register.caller(cookie, "192.0.2.7") is not None
+        await access.close()
         await database.close()
 
     run_virtual(scenario())
@@ -154,9 +234,15 @@ def test_a_backup_moves_from_file_to_server_and_back(
     with closing(sqlite3.connect(file)) as connection:
         connection.execute("PRAGMA journal_mode = DELETE")
         before = connection.execute("SELECT * FROM vehicles ORDER BY id").fetchall()
-    home = PostgresHome(postgres.new_database())
+    url = postgres.new_database()
+    home = PostgresHome(url)
     restore_to_server(file, home)
-    restore_to_server(file, home)  # what was there is replaced
+    with psycopg.connect(url) as server:
+        server.execute("INSERT INTO audit VALUES (1, now(), 'e', 'a', '', '{}', 1, '')")
+        server.execute("INSERT INTO people VALUES ('1', 'Anna', 'owner', now(), NULL)")
+        server.execute("INSERT INTO vehicles VALUES ('newer', '{}')")
+    # What was there is replaced, but for who may do what and the trail, which cannot be changed.
+    restore_to_server(file, home)
     exported = tmp_path / "exported.sqlite3"
     export(home, exported)
     home.engine.dispose()
@@ -165,5 +251,7 @@ def test_a_backup_moves_from_file_to_server_and_back(
         states = dict(connection.execute("SELECT id, state FROM jobs").fetchall())
         (events,) = connection.execute("SELECT count(*) FROM job_events").fetchone()
         assert connection.execute("SELECT state FROM plug").fetchall() == [("unknown",)]
+        assert connection.execute("SELECT event FROM audit").fetchall() == [("e",)]
+        assert connection.execute("SELECT name FROM people").fetchall() == [("Anna",)]
     assert states[INTERRUPTED] == JobState.FAILED
     assert events == 35

@@ -80,6 +80,9 @@ def browser(
     )
 
 
+CAMERA = {k: v for k, v in msgspec.msgpack.decode(CAMERA_MESSAGE).items() if k != "type"}
+
+
 def packed(kind: str, **fields: object) -> bytes:
     return msgspec.msgpack.encode({"type": kind} | fields)
 
@@ -166,9 +169,13 @@ async def test_what_is_allowed_depends_on_who_is_connected(
         msgspec.msgpack.encode([1, 2]),
         msgspec.msgpack.encode({"type": 7}),
         packed("ViewerCameraMessage", padding=b"x" * MAX_CLIENT_MESSAGE_BYTES),
+        packed("ViewerCameraMessage", **CAMERA | {"fov": "wide"}),
+        packed("ViewerCameraMessage", **CAMERA | {"wxyz": (1.0, 0.0)}),
+        packed("ViewerCameraMessage", **CAMERA | {"owner": 1}),
+        packed("ViewerCameraMessage"),
         "text",
     ],
-    ids=["empty", "noise", "list", "number", "too long", "text"],
+    ids=["empty", "noise", "list", "number", "too long", "word", "short", "more", "less", "text"],
 )
 async def test_what_is_no_message_ends_the_connection(
     library: FakeLibrary, serve: Serve, message: bytes | str

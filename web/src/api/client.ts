@@ -46,7 +46,12 @@ interface Call {
   readonly patienceMs?: number;
 }
 
-async function call<Answer>(path: string, options: Call = {}): Promise<Answer> {
+/**
+ * One call.
+ *
+ * @throws Refusal when the server says no, or cannot be asked.
+ */
+export async function call<Answer>(path: string, options: Call = {}): Promise<Answer> {
   const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS } = options;
   const request: RequestInit = { method, headers, signal: AbortSignal.timeout(patienceMs) };
   if (body !== undefined) {

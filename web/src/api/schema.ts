@@ -4,6 +4,388 @@
  */
 
 export interface paths {
+    readonly "/api/v1/access/audit": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List the audit trail
+         * @description Who did what, from where; newest first.
+         */
+        readonly get: operations["listAudit"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/audit/export": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Export the audit trail
+         * @description The whole audit trail, oldest entry first. `plugpilot audit --check` verifies its chain.
+         */
+        readonly get: operations["exportAudit"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/devices/{device_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        readonly post?: never;
+        /**
+         * Forget a device
+         * @description Forget one device: it is out at once.
+         */
+        readonly delete: operations["removeDevice"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/devices/invitation": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Invite another device of oneself
+         * @description An invitation for another device of oneself.
+         */
+        readonly post: operations["inviteOwnDevice"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/invitations": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List open invitations
+         * @description Invitations that can still be used, oldest first.
+         */
+        readonly get: operations["listInvitations"];
+        readonly put?: never;
+        /**
+         * Invite somebody
+         * @description Invite somebody. The address is shown once and can be used once.
+         */
+        readonly post: operations["createInvitation"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/invitations/{invitation_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        readonly post?: never;
+        /**
+         * Withdraw an invitation
+         * @description Make an invitation void.
+         */
+        readonly delete: operations["withdrawInvitation"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/keys": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List keys
+         * @description All keys, oldest first.
+         */
+        readonly get: operations["listKeys"];
+        readonly put?: never;
+        /**
+         * Make a key
+         * @description Make a key for a program. It is shown once.
+         */
+        readonly post: operations["createKey"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/keys/{key_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        readonly post?: never;
+        /**
+         * Revoke a key
+         * @description Revoke a key: it is out at once.
+         */
+        readonly delete: operations["revokeKey"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/login": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Log in with a passkey
+         * @description Show a passkey: this browser becomes a device of its person.
+         */
+        readonly post: operations["logIn"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/login/options": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Begin to show a passkey
+         * @description Options for showing a passkey.
+         */
+        readonly post: operations["beginLogin"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/owner-invitation": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Invite the first owner
+         * @description The invitation of the first owner, for the robot's own screen only.
+         */
+        readonly post: operations["showOwnerInvitation"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/pairing": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Pair this browser
+         * @description Use an invitation: this browser becomes a device of the person who is invited.
+         *
+         *     What it was before, it is no longer.
+         */
+        readonly post: operations["pairDevice"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/passkeys": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List one's own passkeys
+         * @description One's own passkeys, oldest first.
+         */
+        readonly get: operations["listOwnPasskeys"];
+        readonly put?: never;
+        /**
+         * Keep a new passkey
+         * @description Keep a passkey that the browser made.
+         */
+        readonly post: operations["addPasskey"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/passkeys/{passkey_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        readonly post?: never;
+        /**
+         * Forget a passkey
+         * @description Forget one of one's own passkeys.
+         */
+        readonly delete: operations["removePasskey"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/passkeys/options": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Begin to make a passkey
+         * @description Options for making a passkey.
+         */
+        readonly post: operations["beginPasskey"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/people": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List people and their devices
+         * @description Everybody who is paired, with devices; who came first stands first.
+         */
+        readonly get: operations["listPeople"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/people/{person_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        /**
+         * Change a person
+         * @description Change somebody's name, role, or the end of the rights.
+         */
+        readonly put: operations["changePerson"];
+        readonly post?: never;
+        /**
+         * Forget a person
+         * @description Forget somebody: all devices are out at once.
+         */
+        readonly delete: operations["removePerson"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/access/session": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what this browser is
+         * @description What this browser or program is to the robot; anybody may ask about himself.
+         */
+        readonly get: operations["getSession"];
+        readonly put?: never;
+        readonly post?: never;
+        /**
+         * Sign out
+         * @description Sign this browser out.
+         */
+        readonly delete: operations["endSession"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/camera/snapshot.jpg": {
         readonly parameters: {
             readonly query?: never;
@@ -890,6 +1272,32 @@ export interface webhooks {
 export interface components {
     schemas: {
         /**
+         * AccessSession
+         * @description What this browser or program is to the robot.
+         */
+        readonly AccessSession: {
+            /** Device Id */
+            readonly device_id: string | null;
+            /** Paired */
+            readonly paired: boolean;
+            /**
+             * Passkeys
+             * @description Passkeys work under this address
+             */
+            readonly passkeys: boolean;
+            readonly person: components["schemas"]["PersonSummary"] | null;
+            /**
+             * Rights
+             * @description What may be done, as in the table of operations
+             */
+            readonly rights: readonly components["schemas"]["Need"][];
+            /**
+             * Screen
+             * @description This is the robot's own screen and nobody owns the robot: it may show the invitation of the first owner
+             */
+            readonly screen: boolean;
+        };
+        /**
          * Attempt
          * @description One attempt to deliver.
          */
@@ -912,6 +1320,53 @@ export interface components {
              * @description HTTP status of the answer; null without one
              */
             readonly status: number | null;
+        };
+        /**
+         * AuditPage
+         * @description Entries, newest first.
+         */
+        readonly AuditPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["AuditRecord"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
+         * AuditRecord
+         * @description One entry of the audit trail.
+         */
+        readonly AuditRecord: {
+            /** Actor */
+            readonly actor: string;
+            /** Address */
+            readonly address: string;
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Chain
+             * @description SHA-256 over this entry and the chain of the one before
+             */
+            readonly chain: string;
+            /** Detail */
+            readonly detail: {
+                readonly [key: string]: unknown;
+            };
+            /** Event */
+            readonly event: string;
+            /** Sequence */
+            readonly sequence: number;
+            /**
+             * Times
+             * @description How often; repetitions of a burst are one entry
+             */
+            readonly times: number;
         };
         /**
          * Brake
@@ -1130,6 +1585,33 @@ export interface components {
              * @enum {string}
              */
             readonly type: "delta";
+        };
+        /**
+         * DeviceEntry
+         * @description A paired browser.
+         */
+        readonly DeviceEntry: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /** Id */
+            readonly id: string;
+            /**
+             * Last From
+             * @description Network address
+             */
+            readonly last_from: string;
+            /**
+             * Last Used At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly last_used_at: string;
+            /** Name */
+            readonly name: string;
         };
         /**
          * DivergenceChanged
@@ -1514,6 +1996,129 @@ export interface components {
             readonly uptime_s: number;
             /** Version */
             readonly version: string;
+        };
+        /**
+         * InvitationEntry
+         * @description An invitation that was not used yet; its secret is not kept.
+         */
+        readonly InvitationEntry: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /** Created By */
+            readonly created_by: string;
+            /** Ends At */
+            readonly ends_at: string | null;
+            /**
+             * Expires At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly expires_at: string;
+            /** Id */
+            readonly id: string;
+            /** Name */
+            readonly name: string;
+            readonly role: components["schemas"]["Role"];
+        };
+        /**
+         * InvitationList
+         * @description Invitations that can still be used.
+         */
+        readonly InvitationList: {
+            /** Items */
+            readonly items: readonly components["schemas"]["InvitationEntry"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
+         * InvitationRequest
+         * @description Whom to invite.
+         */
+        readonly InvitationRequest: {
+            /**
+             * Ends At
+             * @description When the person's rights end
+             */
+            readonly ends_at?: string | null;
+            /**
+             * Name
+             * @example Anna
+             */
+            readonly name: string;
+            readonly role: components["schemas"]["Role"];
+            /**
+             * Valid Minutes
+             * @default 15
+             */
+            readonly valid_minutes?: number;
+        };
+        /**
+         * IssuedInvitation
+         * @description An invitation, shown once.
+         */
+        readonly IssuedInvitation: {
+            /**
+             * Address
+             * @description To be opened once by whoever is invited
+             */
+            readonly address: string;
+            /**
+             * Expires At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly expires_at: string;
+            /**
+             * Qr
+             * @description The address as a QR code: a data URI of an SVG picture
+             */
+            readonly qr: string;
+            /**
+             * Reachable
+             * @description Other devices can open the address
+             */
+            readonly reachable: boolean;
+        };
+        /**
+         * IssuedKey
+         * @description A new key, shown once.
+         */
+        readonly IssuedKey: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /** Created By */
+            readonly created_by: string;
+            /**
+             * Hint
+             * @description How the key ends
+             */
+            readonly hint: string;
+            /** Id */
+            readonly id: string;
+            /**
+             * Key
+             * @description Send it as `Authorization: Bearer KEY`
+             */
+            readonly key: string;
+            /** Last From */
+            readonly last_from: string | null;
+            /** Last Used At */
+            readonly last_used_at: string | null;
+            /** Name */
+            readonly name: string;
+            /** Scopes */
+            readonly scopes: readonly components["schemas"]["Scope"][];
         };
         /**
          * Job
@@ -1916,6 +2521,61 @@ export interface components {
         };
         readonly JsonValue: unknown;
         /**
+         * KeyEntry
+         * @description A key; the key itself is not kept.
+         */
+        readonly KeyEntry: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /** Created By */
+            readonly created_by: string;
+            /**
+             * Hint
+             * @description How the key ends
+             */
+            readonly hint: string;
+            /** Id */
+            readonly id: string;
+            /** Last From */
+            readonly last_from: string | null;
+            /** Last Used At */
+            readonly last_used_at: string | null;
+            /** Name */
+            readonly name: string;
+            /** Scopes */
+            readonly scopes: readonly components["schemas"]["Scope"][];
+        };
+        /**
+         * KeyList
+         * @description All keys.
+         */
+        readonly KeyList: {
+            /** Items */
+            readonly items: readonly components["schemas"]["KeyEntry"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
+         * KeyRequest
+         * @description A key to make.
+         */
+        readonly KeyRequest: {
+            /**
+             * Name
+             * @example Anna
+             */
+            readonly name: string;
+            /** Scopes */
+            readonly scopes: readonly components["schemas"]["Scope"][];
+        };
+        /**
          * Leave
          * @description Back out of the garage.
          */
@@ -1986,6 +2646,21 @@ export interface components {
             readonly tip: components["schemas"]["Tip"] | null;
         };
         /**
+         * Need
+         * @description What an operation needs.
+         *
+         *     - ANYONE: nothing; the caller may be unknown.
+         *     - STOP: to be known at all. From the machine itself nobody needs anything for it.
+         *     - PERSON: to be a paired person; a key does not do.
+         *     - READ: to see state, pictures and recordings.
+         *     - OPERATE: to start and end jobs, to release a stop, to switch the drives.
+         *     - CHARGE_POINT: to steer charging as an energy manager does.
+         *     - SERVICE: to jog, to calibrate, to change vehicles.
+         *     - ADMIN: to decide who may do what.
+         * @enum {string}
+         */
+        readonly Need: "anyone" | "stop" | "person" | "read" | "operate" | "charge-point" | "service" | "admin";
+        /**
          * NeedsPerson
          * @description Why a job does not go on by itself, and what a person may choose.
          */
@@ -2031,11 +2706,109 @@ export interface components {
             readonly type: "robot.needs_person";
         };
         /**
+         * PairingRequest
+         * @description The secret of an invitation: what follows #pair= in its address.
+         */
+        readonly PairingRequest: {
+            /** Secret */
+            readonly secret: string;
+        };
+        /**
+         * PasskeyAnswer
+         * @description What the browser's credentials API made, as JSON of WebAuthn level 3.
+         */
+        readonly PasskeyAnswer: {
+            /** Credential */
+            readonly credential: {
+                readonly [key: string]: unknown;
+            };
+        };
+        /**
+         * PasskeyEntry
+         * @description A passkey.
+         */
+        readonly PasskeyEntry: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /** Id */
+            readonly id: string;
+            /** Last Used At */
+            readonly last_used_at: string | null;
+            /** Name */
+            readonly name: string;
+        };
+        /**
+         * PasskeyList
+         * @description One's own passkeys.
+         */
+        readonly PasskeyList: {
+            /** Items */
+            readonly items: readonly components["schemas"]["PasskeyEntry"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
+        /**
+         * PasskeyOptions
+         * @description Options for the browser's credentials API, as JSON of WebAuthn level 3.
+         */
+        readonly PasskeyOptions: {
+            /** Options */
+            readonly options: {
+                readonly [key: string]: unknown;
+            };
+        };
+        /**
          * PersonChoice
          * @description What a person may answer to a job that asks.
          * @enum {string}
          */
         readonly PersonChoice: "resume" | "cancel";
+        /**
+         * PersonEntry
+         * @description A person with devices.
+         */
+        readonly PersonEntry: {
+            /**
+             * Created At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly created_at: string;
+            /** Devices */
+            readonly devices: readonly components["schemas"]["DeviceEntry"][];
+            /**
+             * Ends At
+             * @description When the rights end by themselves
+             */
+            readonly ends_at: string | null;
+            /** Id */
+            readonly id: string;
+            /** Name */
+            readonly name: string;
+            /** Passkeys */
+            readonly passkeys: number;
+            readonly role: components["schemas"]["Role"];
+        };
+        /**
+         * PersonList
+         * @description Everybody who is paired.
+         */
+        readonly PersonList: {
+            /** Items */
+            readonly items: readonly components["schemas"]["PersonEntry"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor: string | null;
+        };
         /**
          * PersonNeeded
          * @description Data of robot.needs_person.
@@ -2048,6 +2821,36 @@ export interface components {
             readonly needed: boolean;
             /** @description Null when nobody is needed any more */
             readonly reason: components["schemas"]["RobotFault"] | null;
+        };
+        /**
+         * PersonSettings
+         * @description What somebody is.
+         */
+        readonly PersonSettings: {
+            /** Ends At */
+            readonly ends_at?: string | null;
+            /**
+             * Name
+             * @example Anna
+             */
+            readonly name: string;
+            readonly role: components["schemas"]["Role"];
+        };
+        /**
+         * PersonSummary
+         * @description Who is paired.
+         */
+        readonly PersonSummary: {
+            /**
+             * Ends At
+             * @description When the rights end by themselves
+             */
+            readonly ends_at: string | null;
+            /** Id */
+            readonly id: string;
+            /** Name */
+            readonly name: string;
+            readonly role: components["schemas"]["Role"];
         };
         /**
          * PilotState
@@ -2359,6 +3162,18 @@ export interface components {
          * @enum {string}
          */
         readonly RobotMode: "offline" | "off" | "not_homed" | "homing" | "ready" | "moving" | "stopping" | "stopped" | "emergency_stop" | "fault";
+        /**
+         * Role
+         * @description What a person is to the robot.
+         * @enum {string}
+         */
+        readonly Role: "viewer" | "resident" | "technician" | "owner";
+        /**
+         * Scope
+         * @description What a key is for.
+         * @enum {string}
+         */
+        readonly Scope: "read" | "operate" | "charge-point" | "service" | "admin";
         readonly ServerMessage: components["schemas"]["SnapshotMessage"] | components["schemas"]["DeltaMessage"] | components["schemas"]["ReplyMessage"];
         /**
          * Service
@@ -2611,10 +3426,7 @@ export interface components {
              * @default 60
              */
             readonly label_size_mm?: number;
-            /**
-             * Name
-             * @example Renault Zoe
-             */
+            /** Name */
             readonly name: string;
             /**
              * @default {
@@ -2845,6 +3657,46 @@ export interface components {
                 readonly "application/problem+json": components["schemas"]["Problem"];
             };
         };
+        /** @description Unauthorized */
+        readonly Problem401: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "not_paired",
+                 *       "context": {},
+                 *       "detail": "The robot does not know who asks.",
+                 *       "remedy": "Open an invitation from the owner of the robot; programs need a key.",
+                 *       "status": 401,
+                 *       "title": "This browser is not paired with the robot",
+                 *       "type": "urn:plugpilot:problem:not_paired"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Forbidden */
+        readonly Problem403: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "forbidden",
+                 *       "context": {},
+                 *       "detail": "Ben may not do that.",
+                 *       "remedy": "Ask the owner of the robot.",
+                 *       "status": 403,
+                 *       "title": "You may not do that",
+                 *       "type": "urn:plugpilot:problem:forbidden"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description Not Found */
         readonly Problem404: {
             headers: {
@@ -2997,6 +3849,28 @@ export interface components {
                 readonly "application/problem+json": components["schemas"]["Problem"];
             };
         };
+        /** @description Too Many Requests */
+        readonly Problem429: {
+            headers: {
+                readonly [name: string]: unknown;
+            };
+            content: {
+                /**
+                 * @example {
+                 *       "code": "too_many_attempts",
+                 *       "context": {
+                 *         "wait_s": 12
+                 *       },
+                 *       "detail": "Try again in 12 s.",
+                 *       "remedy": "Wait a minute, then try again.",
+                 *       "status": 429,
+                 *       "title": "Too many attempts",
+                 *       "type": "urn:plugpilot:problem:too_many_attempts"
+                 *     }
+                 */
+                readonly "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description Internal Server Error */
         readonly Problem500: {
             headers: {
@@ -3085,6 +3959,961 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    readonly listAudit: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+                /** @description Only what concerns access */
+                readonly security?: boolean;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "actor": "person: Anna",
+                     *           "address": "192.168.1.34",
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "chain": "6a09e667bb67ae853c6ef372a54ff53a510e527f9b05688c1f83d9ab5be0cd19",
+                     *           "detail": {
+                     *             "operation": "createJob",
+                     *             "path": "/api/v1/jobs",
+                     *             "status": 201
+                     *           },
+                     *           "event": "operation",
+                     *           "sequence": 42,
+                     *           "times": 1
+                     *         }
+                     *       ],
+                     *       "next_cursor": "42"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AuditPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly exportAudit: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description One JSON object a line */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/x-ndjson": string;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly removeDevice: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly device_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly inviteOwnDevice: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "address": "http://plugpilot.local:8000/#pair=Zk3vTq9xR2mB7wYc",
+                     *       "expires_at": "2026-03-01T18:19:05.120Z",
+                     *       "qr": "data:image/svg+xml;base64,PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciLz4=",
+                     *       "reachable": true
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["IssuedInvitation"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listInvitations: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "created_at": "2026-03-01T18:04:05.120Z",
+                     *           "created_by": "person: Anna",
+                     *           "ends_at": "2026-03-02T18:04:05.120Z",
+                     *           "expires_at": "2026-03-01T18:19:05.120Z",
+                     *           "id": "01957a3b-90aa-7d6e-b1f4-0c2a5e7d8b93",
+                     *           "name": "Ben",
+                     *           "role": "technician"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["InvitationList"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly createInvitation: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "ends_at": "2026-03-02T18:04:05.120Z",
+                 *       "name": "Ben",
+                 *       "role": "technician",
+                 *       "valid_minutes": 15
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["InvitationRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "address": "http://plugpilot.local:8000/#pair=Zk3vTq9xR2mB7wYc",
+                     *       "expires_at": "2026-03-01T18:19:05.120Z",
+                     *       "qr": "data:image/svg+xml;base64,PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciLz4=",
+                     *       "reachable": true
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["IssuedInvitation"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly withdrawInvitation: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly invitation_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listKeys: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "created_at": "2026-02-20T09:12:00Z",
+                     *           "created_by": "person: Anna",
+                     *           "hint": "kQ4z",
+                     *           "id": "01957a3c-11d2-7a09-93e8-5b6c7d8e9f01",
+                     *           "last_from": "192.168.1.10",
+                     *           "last_used_at": "2026-03-01T18:04:05.120Z",
+                     *           "name": "Home Assistant",
+                     *           "scopes": [
+                     *             "read",
+                     *             "operate"
+                     *           ]
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["KeyList"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly createKey: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "name": "Home Assistant",
+                 *       "scopes": [
+                 *         "read",
+                 *         "operate"
+                 *       ]
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["KeyRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "created_by": "person: Anna",
+                     *       "hint": "kQ4z",
+                     *       "id": "01957a3c-11d2-7a09-93e8-5b6c7d8e9f01",
+                     *       "key": "plugpilot_SHOWN-ONCE-kQ4z",
+                     *       "last_from": null,
+                     *       "last_used_at": null,
+                     *       "name": "Home Assistant",
+                     *       "scopes": [
+                     *         "read",
+                     *         "operate"
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["IssuedKey"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly revokeKey: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly key_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly logIn: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "credential": {
+                 *         "id": "q83vEjRWeJASNFZ4kBI0Vg",
+                 *         "rawId": "q83vEjRWeJASNFZ4kBI0Vg",
+                 *         "response": {
+                 *           "authenticatorData": "SZYN5Y",
+                 *           "clientDataJSON": "eyJ0eXBlIjoi4oCmIn0"
+                 *         },
+                 *         "type": "public-key"
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["PasskeyAnswer"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "device_id": "01957a10-2b60-7b1a-8c42-17e5d90a3f6c",
+                     *       "paired": true,
+                     *       "passkeys": true,
+                     *       "person": {
+                     *         "ends_at": null,
+                     *         "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *         "name": "Anna",
+                     *         "role": "owner"
+                     *       },
+                     *       "rights": [
+                     *         "admin",
+                     *         "anyone",
+                     *         "charge-point",
+                     *         "operate",
+                     *         "person",
+                     *         "read",
+                     *         "service",
+                     *         "stop"
+                     *       ],
+                     *       "screen": false
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AccessSession"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 429: components["responses"]["Problem429"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly beginLogin: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "options": {
+                     *         "challenge": "3hVb0kq8mXw2sZ5nT7rYcA",
+                     *         "rpId": "plugpilot.local",
+                     *         "timeout": 60000,
+                     *         "userVerification": "required"
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PasskeyOptions"];
+                };
+            };
+            readonly 403: components["responses"]["Problem403"];
+            readonly 429: components["responses"]["Problem429"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly showOwnerInvitation: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "address": "http://plugpilot.local:8000/#pair=Zk3vTq9xR2mB7wYc",
+                     *       "expires_at": "2026-03-01T18:19:05.120Z",
+                     *       "qr": "data:image/svg+xml;base64,PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciLz4=",
+                     *       "reachable": true
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["IssuedInvitation"];
+                };
+            };
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly pairDevice: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "secret": "Zk3vTq9xR2mB7wYc"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["PairingRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "device_id": "01957a10-2b60-7b1a-8c42-17e5d90a3f6c",
+                     *       "paired": true,
+                     *       "passkeys": true,
+                     *       "person": {
+                     *         "ends_at": null,
+                     *         "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *         "name": "Anna",
+                     *         "role": "owner"
+                     *       },
+                     *       "rights": [
+                     *         "admin",
+                     *         "anyone",
+                     *         "charge-point",
+                     *         "operate",
+                     *         "person",
+                     *         "read",
+                     *         "service",
+                     *         "stop"
+                     *       ],
+                     *       "screen": false
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AccessSession"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 429: components["responses"]["Problem429"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listOwnPasskeys: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "created_at": "2026-02-20T09:12:00Z",
+                     *           "id": "01957a10-3000-7c1d-a2b3-c4d5e6f70819",
+                     *           "last_used_at": null,
+                     *           "name": "Chrome on Android"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PasskeyList"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly addPasskey: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "credential": {
+                 *         "id": "q83vEjRWeJASNFZ4kBI0Vg",
+                 *         "rawId": "q83vEjRWeJASNFZ4kBI0Vg",
+                 *         "response": {
+                 *           "authenticatorData": "SZYN5Y",
+                 *           "clientDataJSON": "eyJ0eXBlIjoi4oCmIn0"
+                 *         },
+                 *         "type": "public-key"
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["PasskeyAnswer"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "id": "01957a10-3000-7c1d-a2b3-c4d5e6f70819",
+                     *       "last_used_at": null,
+                     *       "name": "Chrome on Android"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PasskeyEntry"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly removePasskey: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly passkey_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly beginPasskey: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "options": {
+                     *         "challenge": "3hVb0kq8mXw2sZ5nT7rYcA",
+                     *         "rpId": "plugpilot.local",
+                     *         "timeout": 60000,
+                     *         "userVerification": "required"
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PasskeyOptions"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listPeople: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "created_at": "2026-02-20T09:12:00Z",
+                     *           "devices": [
+                     *             {
+                     *               "created_at": "2026-02-20T09:12:00Z",
+                     *               "id": "01957a10-2b60-7b1a-8c42-17e5d90a3f6c",
+                     *               "last_from": "192.168.1.34",
+                     *               "last_used_at": "2026-03-01T18:04:05.120Z",
+                     *               "name": "Chrome on Android"
+                     *             }
+                     *           ],
+                     *           "ends_at": null,
+                     *           "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *           "name": "Anna",
+                     *           "passkeys": 1,
+                     *           "role": "owner"
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PersonList"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly changePerson: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly person_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "ends_at": null,
+                 *       "name": "Anna",
+                 *       "role": "owner"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["PersonSettings"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "created_at": "2026-02-20T09:12:00Z",
+                     *       "devices": [
+                     *         {
+                     *           "created_at": "2026-02-20T09:12:00Z",
+                     *           "id": "01957a10-2b60-7b1a-8c42-17e5d90a3f6c",
+                     *           "last_from": "192.168.1.34",
+                     *           "last_used_at": "2026-03-01T18:04:05.120Z",
+                     *           "name": "Chrome on Android"
+                     *         }
+                     *       ],
+                     *       "ends_at": null,
+                     *       "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *       "name": "Anna",
+                     *       "passkeys": 1,
+                     *       "role": "owner"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PersonEntry"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly removePerson: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly person_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getSession: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "device_id": "01957a10-2b60-7b1a-8c42-17e5d90a3f6c",
+                     *       "paired": true,
+                     *       "passkeys": true,
+                     *       "person": {
+                     *         "ends_at": null,
+                     *         "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *         "name": "Anna",
+                     *         "role": "owner"
+                     *       },
+                     *       "rights": [
+                     *         "admin",
+                     *         "anyone",
+                     *         "charge-point",
+                     *         "operate",
+                     *         "person",
+                     *         "read",
+                     *         "service",
+                     *         "stop"
+                     *       ],
+                     *       "screen": false
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AccessSession"];
+                };
+            };
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly endSession: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getCameraSnapshot: {
         readonly parameters: {
             readonly query?: never;
@@ -3103,6 +4932,8 @@ export interface operations {
                     readonly "image/jpeg": unknown;
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -3125,6 +4956,8 @@ export interface operations {
                     readonly "multipart/x-mixed-replace": unknown;
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -3167,6 +5000,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["ChargePoint"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -3219,6 +5054,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
@@ -3277,6 +5114,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 413: components["responses"]["Problem413"];
             readonly 422: components["responses"]["Problem422"];
@@ -3323,6 +5162,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["ChargePoint"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -3365,6 +5206,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Configuration"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -3429,6 +5272,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
@@ -3480,6 +5325,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -3507,6 +5354,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -3606,6 +5455,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Guidance"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -3715,6 +5566,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -3773,6 +5626,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
@@ -3828,6 +5683,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
@@ -3880,6 +5737,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -3928,6 +5787,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
@@ -3980,6 +5841,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -4033,6 +5896,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -4073,6 +5938,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Playback"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -4109,6 +5976,8 @@ export interface operations {
                 };
                 content?: never;
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -4145,6 +6014,8 @@ export interface operations {
                 };
                 content?: never;
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -4198,6 +6069,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Job"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
@@ -4261,6 +6134,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -4321,6 +6196,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -4382,6 +6259,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -4443,6 +6322,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
@@ -4502,6 +6383,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -4575,6 +6458,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 413: components["responses"]["Problem413"];
@@ -4649,6 +6534,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 413: components["responses"]["Problem413"];
@@ -4703,6 +6590,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Reach"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -4764,6 +6653,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -4825,6 +6716,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Robot"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
@@ -4855,6 +6748,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["SimulatedCarNow"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -4892,6 +6787,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 413: components["responses"]["Problem413"];
@@ -4937,6 +6834,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Station"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -4985,6 +6884,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -5028,6 +6929,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Vehicle"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
@@ -5119,6 +7022,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
@@ -5151,6 +7056,8 @@ export interface operations {
                 };
                 content?: never;
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
@@ -5202,6 +7109,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -5260,6 +7169,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 413: components["responses"]["Problem413"];
@@ -5305,6 +7216,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Webhook"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
@@ -5367,6 +7280,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 408: components["responses"]["Problem408"];
             readonly 412: components["responses"]["Problem412"];
@@ -5399,6 +7314,8 @@ export interface operations {
                 };
                 content?: never;
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 412: components["responses"]["Problem412"];
             readonly 422: components["responses"]["Problem422"];
@@ -5456,6 +7373,8 @@ export interface operations {
                 };
             };
             readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
@@ -5501,6 +7420,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["Delivery"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
@@ -5543,6 +7464,8 @@ export interface operations {
                     readonly "application/json": components["schemas"]["WebhookWithSecret"];
                 };
             };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];

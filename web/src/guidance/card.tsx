@@ -1,5 +1,6 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { may } from "@/access/session";
 import type { Guidance } from "@/api/wire";
 import { store } from "@/live/page";
 import { Announcer } from "./announcer";
@@ -38,7 +39,7 @@ export function GuidanceCard() {
       aria-label={say.title}
     >
       {open && <Shown guidance={guidance} />}
-      {open && simulated && <SimulatedCar />}
+      {open && simulated && may("service") && <SimulatedCar />}
       <button type="button" class="button guidance-toggle" aria-expanded={open} onClick={toggle}>
         <span>{open ? say.hide : say.title}</span>
         {!open && <span class="soft">{say.show}</span>}

@@ -1,4 +1,6 @@
 import { useComputed } from "@preact/signals";
+import { menuOpen } from "@/access/session";
+import { say } from "@/access/words";
 import type { Service } from "@/api/wire";
 import { store } from "@/live/page";
 import { words } from "@/words";
@@ -11,7 +13,7 @@ function notReal({ simulated_parts: parts, speed }: Service): string | null {
   return parts.includes("station") ? words.simulated.station : null;
 }
 
-/** The name, the simulator's badge and the state of the connection. */
+/** The name, the simulator's badge, the state of the connection, and who may do what. */
 export function Header() {
   const service = useComputed(() => store.live.value?.service ?? null).value;
   const badge = service === null ? null : notReal(service);
@@ -19,17 +21,37 @@ export function Header() {
   const quiet = link === "live" && store.stale.value;
   return (
     <header class="header">
-      <a class="brand" href="/">
-        <svg viewBox="0 0 32 32" aria-hidden="true">
-          <rect width="32" height="32" rx="9" />
-          <path d="M18 5 9 18h6l-1 9 9-13h-6z" />
-        </svg>
-        PlugPilot
-      </a>
+      <Brand />
       {badge !== null && <span class="badge">{badge}</span>}
       <span class="link" data-link={quiet ? "quiet" : link} role="status">
         {quiet ? words.link.quiet : words.link[link]}
       </span>
+      <button
+        type="button"
+        class="button menu-button"
+        aria-label={say.menu}
+        onClick={() => {
+          menuOpen.value = true;
+        }}
+      >
+        <svg viewBox="0 0 24 24" aria-hidden="true">
+          <circle cx="12" cy="8.5" r="3.5" />
+          <path d="M5 20c0-4 3-6 7-6s7 2 7 6" />
+        </svg>
+      </button>
     </header>
+  );
+}
+
+/** The name and its sign. */
+export function Brand() {
+  return (
+    <a class="brand" href="/">
+      <svg viewBox="0 0 32 32" aria-hidden="true">
+        <rect width="32" height="32" rx="9" />
+        <path d="M18 5 9 18h6l-1 9 9-13h-6z" />
+      </svg>
+      PlugPilot
+    </a>
   );
 }

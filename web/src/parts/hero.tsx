@@ -1,3 +1,5 @@
+import { may } from "@/access/session";
+import { say } from "@/access/words";
 import { store } from "@/live/page";
 import { pending, press, trouble } from "@/robot/actions";
 import type { Action } from "@/robot/describe";
@@ -21,8 +23,9 @@ export function Hero() {
         )}
       </div>
       <div class="hero-action">
-        {action !== null && <ActionButtons action={action} />}
-        <OtherButtons others={others} />
+        {action !== null && may("operate") && <ActionButtons action={action} />}
+        {may("operate") && <OtherButtons others={others} />}
+        {!may("operate") && <p class="soft">{say.watching}</p>}
       </div>
       <TroubleNote />
     </section>

@@ -1,5 +1,13 @@
-import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { createContext } from "preact";
+import type { ComponentChildren, FunctionComponent } from "preact";
+import { useContext, useEffect, useId, useRef } from "preact/hooks";
+import { StopBar } from "./stop-bar";
+
+/**
+ * The stop of this page. While a dialog is open nothing behind it can be pressed, so each dialog
+ * has it too, at the same place.
+ */
+export const PageStop = createContext<FunctionComponent>(StopBar);
 
 interface ModalProps {
   readonly title: string;
@@ -13,6 +21,7 @@ interface ModalProps {
 export function Modal({ title, wide = false, onClose, children }: ModalProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   const heading = useId();
+  const Stop = useContext(PageStop);
   useEffect(() => {
     dialog.current?.showModal();
   }, []);
@@ -30,6 +39,7 @@ export function Modal({ title, wide = false, onClose, children }: ModalProps) {
         <h2 id={heading}>{title}</h2>
         {children}
       </div>
+      <Stop />
     </dialog>
   );
 }

@@ -1,5 +1,6 @@
 /** What the page shows now: the description of the live state, or of the lack of one. */
 import { computed, signal } from "@preact/signals";
+import { may } from "@/access/session";
 import { store } from "@/live/page";
 import { words } from "@/words";
 import { describe } from "./describe";
@@ -45,5 +46,7 @@ export const description = computed(() => {
   return newest ?? next;
 });
 
-/** Buttons work only on what is known now. */
-export const canAct = computed(() => store.link.value === "live" && !store.stale.value);
+/** Buttons work only on what is known now, and for those who may operate the robot. */
+export const canAct = computed(
+  () => store.link.value === "live" && !store.stale.value && may("operate"),
+);

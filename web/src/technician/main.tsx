@@ -1,17 +1,26 @@
 import { render } from "preact";
-import { connect } from "@/live/page";
+import { Door } from "@/access/door";
+import { begin } from "@/access/session";
 import "uplot/dist/uPlot.min.css";
 import "@/style/tokens.css";
 import "@/style/page.css";
 import "@/style/controls.css";
 import "@/style/cards.css";
 import "@/style/views.css";
+import "@/access/access.css";
 import "./bench.css";
 import "./jog/jog.css";
 import "./readings/readings.css";
+import { PageStop } from "@/parts/modal";
 import { Technician } from "./app";
+import { StopButtons } from "./stop";
 
 const root = document.getElementById("app");
 if (root === null) throw new Error("technician.html has no element #app");
-connect();
-render(<Technician />, root);
+render(
+  <PageStop.Provider value={StopButtons}>
+    <Door page={Technician} />
+  </PageStop.Provider>,
+  root,
+);
+void begin();

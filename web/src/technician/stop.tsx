@@ -19,6 +19,11 @@ export function Stops() {
     addEventListener("keydown", onKey, { capture: true });
     return () => removeEventListener("keydown", onKey, { capture: true });
   }, []);
+  return <StopButtons />;
+}
+
+/** The two buttons. */
+export function StopButtons() {
   return (
     <section class="stops" aria-label={say.stop.hint}>
       <StopButton kind="stop" label={stopping.value ? words.action.stopping : say.stop.protective} />

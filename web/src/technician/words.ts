@@ -48,6 +48,7 @@ export const say = {
     keys: "Keys: arrows and Page Up, Page Down while this box has the focus.",
     gamepad: "Gamepad: hold L1 and push a stick. Releasing L1 stops.",
     left: (way_mm: number): string => (way_mm === 0 ? "end" : `${way_mm.toFixed(0)} mm`),
+    notAllowed: "You may look. Only a technician or an owner may move the robot here.",
     notLive: "The page has no fresh values.",
     busy: "The robot is moving.",
     controlled: (name: string): string => `${name} has control.`,

@@ -15,6 +15,7 @@ import pytest
 import yaml  # type: ignore[import-untyped]  # only read here; its stubs are a package of their own
 
 import server.api
+from server.access import Scope
 from server.jobs.model import JobPhase
 from tests.support.api import on_api
 from tests.support.garage import Scene
@@ -49,7 +50,7 @@ def sources() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 async def ask(client: httpx.AsyncClient, source: dict[str, Any], **values: object) -> Any:  # noqa: ANN401 - any JSON
-    """One request as evcc's http source makes it."""
+    """One request as evcc's http source makes it. The client adds a key that steers charging."""
     body: str = source.get("body", "")
     for name, value in values.items():
         assert f"${{{name}}}" in body
@@ -58,7 +59,7 @@ async def ask(client: httpx.AsyncClient, source: dict[str, Any], **values: objec
         source.get("method", "GET"),
         HERE + urlsplit(source["uri"]).path,
         content=body,
-        headers={"Authorization": f"Bearer {source['auth']['token']}", **source.get("headers", {})},
+        headers=source.get("headers", {}),
     )
     assert answer.status_code == 200, answer.text
     return picked(answer.json(), source["jq"]) if "jq" in source else answer.json()
@@ -70,7 +71,7 @@ def test_evcc_knows_every_word_of_it() -> None:
     for name, source in sources():
         assert set(source) <= SOURCE_FIELDS, name
         assert source["source"] == "http"
-        assert source["auth"]["type"] == "bearer"
+        assert source["auth"] == {"type": "bearer", "token": "YOUR KEY"}
         assert ("jq" in source) == (source.get("method", "GET") == "GET"), name
     assert len(CHARGER["currents"]) == 3, "evcc wants all phases or none"
     (loadpoint,) = EVCC["loadpoints"]
@@ -86,7 +87,7 @@ def test_every_reading_has_the_type_that_evcc_expects() -> None:
         for source in CHARGER["currents"]:
             assert isinstance(await ask(client, source), float)
 
-    on_api(scenario, parked=True)
+    on_api(scenario, parked=True, scopes=[Scope.CHARGE_POINT])
 
 
 class Metered(NamedTuple):
@@ -136,4 +137,4 @@ def test_evcc_charges_in_mode_now_and_stops_in_mode_off(amperes: float) -> None:
         assert await ask(client, CHARGER["enabled"]) is False
         assert await ask(client, CHARGER["power"]) == 0.0
 
-    on_api(scenario, parked=True)
+    on_api(scenario, parked=True, scopes=[Scope.CHARGE_POINT])

@@ -12,6 +12,7 @@ import httpx
 import yaml  # type: ignore[import-untyped]  # only read here; its stubs are a package of their own
 
 import server.api
+from server.access import Scope
 from server.control.model import PlugState
 from tests.support.api import on_api
 from tests.support.garage import Scene
@@ -19,6 +20,9 @@ from tests.support.garage import Scene
 FILE = Path(server.api.__file__).parent / "docs" / "home_assistant.yaml"
 CONFIGURATION: dict[str, Any] = yaml.safe_load(FILE.read_text())
 HERE = "http://plugpilot"
+KEY = {"Authorization": "Bearer YOUR KEY"}
+SCOPES = [Scope.OPERATE, Scope.CHARGE_POINT]
+"""Of the key, which the client adds to its requests."""
 COMMANDS: dict[str, dict[str, Any]] = CONFIGURATION["rest_command"]
 
 
@@ -40,7 +44,8 @@ async def command(client: httpx.AsyncClient, name: str, **values: object) -> htt
         assert f"{{{{ {key} }}}}" in payload
         payload = payload.replace(f"{{{{ {key} }}}}", json.dumps(value))
     assert "{{" not in payload
-    headers = {**said["headers"], "Content-Type": said.get("content_type", "text/plain")}
+    assert said["headers"] == KEY
+    headers = {"Content-Type": said.get("content_type", "text/plain")}
     path = HERE + urlsplit(said["url"]).path
     answer = await client.request(said["method"].upper(), path, content=payload, headers=headers)
     assert answer.is_success, f"{name}: {answer.text}"
@@ -51,6 +56,7 @@ def test_every_sensor_finds_its_value() -> None:
     async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
         found = {}
         for resource in CONFIGURATION["rest"]:
+            assert resource["headers"] == KEY
             answer = await client.get(HERE + urlsplit(resource["resource"]).path)
             assert answer.status_code == 200
             for sensor in [*resource.get("sensor", []), *resource.get("binary_sensor", [])]:
@@ -63,7 +69,7 @@ def test_every_sensor_finds_its_value() -> None:
             "plugpilot_plug": "parked",
         }
 
-    on_api(scenario, parked=True)
+    on_api(scenario, parked=True, scopes=SCOPES)
 
 
 def test_every_command_does_what_it_says() -> None:
@@ -92,5 +98,5 @@ def test_every_command_does_what_it_says() -> None:
         assert resumed.json()["resting"] is None
         assert (await do("plugpilot_stop")).json()["mode"] == "stopped"
 
-    on_api(scenario, parked=True)
+    on_api(scenario, parked=True, scopes=SCOPES)
     assert used == set(COMMANDS)

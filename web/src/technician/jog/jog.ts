@@ -1,5 +1,6 @@
 /** What the technician has chosen for jogging, and what the buttons do. */
 import { computed, signal } from "@preact/signals";
+import { may } from "@/access/session";
 import type { Trouble } from "@/api/client";
 import type { Problem } from "@/api/wire";
 import { channel, store } from "@/live/page";
@@ -32,6 +33,7 @@ export const deadMan = new DeadMan(channel, (ending) => {
 /** Why nothing can be jogged now; null when it can. */
 export const hindrance = computed((): string | null => {
   const robot = store.live.value?.robot;
+  if (!may("service")) return say.jog.notAllowed;
   if (robot === undefined || !canAct.value) return say.jog.notLive;
   const mine = deadMan.held.value !== null || stepping.value;
   switch (robot.mode) {
