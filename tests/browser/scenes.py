@@ -161,9 +161,7 @@ def _with_next(shown: Live, job_type: JobType, **changes: object) -> Live:
 
 
 def _unsaved(shown: Live) -> Live:
-    problem = problem_from(
-        DiskFullError("/var/lib/plugpilot database or disk is full.")
-    )
+    problem = problem_from(DiskFullError("/data/plugpilot.sqlite3: database or disk is full."))
     service = shown.service.model_copy(update={"storage": problem})
     return shown.model_copy(update={"service": service})
 
