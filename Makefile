@@ -108,9 +108,19 @@ check-web: web/node_modules/.package-lock.json
 	@echo "-- types of the web pages"
 	@cd web && npm run --silent check
 
+# Browsers, servers on real sockets and the board in its CPU simulator live by the wall clock and
+# get the machine to themselves. The others live in virtual time: two at once disturb nobody.
+ALONE = tests/browser tests/campaign tests/drivers tests/rig tests/server/live \
+	tests/server/storage tests/server/test_serving.py tests/server/test_timing.py \
+	tests/server/twin tests/twin/scene tests/server/api/docs/test_live_server.py \
+	tests/server/access/test_at_the_machine.py tests/server/access/test_logs.py tests/server/tls \
+	tests/server/test_connections.py
+
 test-python:
-	@echo "-- tests"
-	@$(BIN)/pytest --no-header
+	@echo "-- tests, two at a time"
+	@$(BIN)/pytest --no-header --numprocesses 2 --dist loadfile $(ALONE:%=--ignore=%)
+	@echo "-- tests that need the machine to themselves"
+	@$(BIN)/pytest --no-header $(ALONE)
 
 test-web: web/node_modules/.package-lock.json
 	@echo "-- tests of the web pages"

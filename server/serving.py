@@ -21,7 +21,9 @@ from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
 from server.connections import allow_many_files, guarded
+from server.control.model import RobotMode
 from server.storage.folder_lock import holding
+from server.tidying import tidying_at_rest
 from server.timing import ScaledTimeLoop
 from server.tls import TlsFiles, tls_files
 from twin.scene import TwinHost
@@ -34,6 +36,7 @@ PING_S = 20
 PING_TIMEOUT_S = 30
 SHUTDOWN_S = 2
 MAX_MESSAGE_BYTES = 1 << 20
+UNDER_WAY = (RobotMode.HOMING, RobotMode.MOVING, RobotMode.STOPPING)
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -116,7 +119,8 @@ async def _serve(settings: Settings, listener: socket.socket, tls: TlsFiles | No
         server = _Server(config, page, when_ready=ready)
         with findable(settings.storage.data_dir, page):
             try:
-                await server.serve(sockets=[listener])
+                async with tidying_at_rest(lambda: services.supervisor.mode not in UNDER_WAY):
+                    await server.serve(sockets=[listener])
             finally:
                 await asyncio.to_thread(twin.stop)
 

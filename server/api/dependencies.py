@@ -10,8 +10,12 @@ from fastapi.requests import HTTPConnection
 from server.services import Services
 
 
-def running_services(connection: HTTPConnection) -> Services:
-    """The running parts, as the lifespan of the application left them."""
+async def running_services(connection: HTTPConnection) -> Services:
+    """The running parts, as the lifespan of the application left them.
+
+    A coroutine, although it waits for nothing: anything else would cost each request, a stop
+    too, its turn in the pool of threads.
+    """
     services = connection.app.state.services
     assert isinstance(services, Services)  # noqa: S101 - set by the lifespan
     return services

@@ -15,6 +15,8 @@ from pydantic import BaseModel
 from server.schema.live import PROTOCOL_VERSION
 
 STALE_AFTER_S = 1.0
+TOLD_AT_ONCE = 5
+"""Watchers that are sent to in one turn of the event loop."""
 
 Build = Callable[[], BaseModel | None]
 
@@ -100,8 +102,7 @@ class LiveHub:
 
     def _update_all(self) -> None:
         if self._refresh():
-            for news in self._watchers:
-                news.set()
+            _tell(list(self._watchers))
 
     def _refresh(self) -> bool:
         """Bring dirty sections up to date; True when one has really changed."""
@@ -133,6 +134,17 @@ class LiveHub:
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
+
+
+def _tell(watchers: list[asyncio.Event]) -> None:
+    """Wake them a few at a time: between two groups the loop looks at its timers again.
+
+    Sending to fifty at once keeps the loop for several milliseconds, and the robot waits.
+    """
+    for news in watchers[:TOLD_AT_ONCE]:
+        news.set()
+    if rest := watchers[TOLD_AT_ONCE:]:
+        asyncio.get_running_loop().call_soon(_tell, rest)
 
 
 def _delta(sequence: int, changes: Mapping[str, bytes]) -> bytes:

@@ -26,14 +26,17 @@ from urllib.parse import urlsplit
 from websockets.asyncio.client import ClientConnection, connect
 
 from drivers.robot import BoardState
+from drivers.simulator.parameters import BoardParameters, SimulationParameters
 from server.access import Scope
 from server.api.app import create_app
 from server.composition import running
 from server.config.settings import Settings
+from server.config.simulation import SimulationSettings
 from server.jobs.model import JobType
 from server.schema.jobs import JobRequest
 from server.services import Services
 from server.simulation import park_first
+from server.tidying import tidying_at_rest
 from tests.support.fake_stations.serving import serving
 from tests.support.pairing import new_key
 
@@ -41,6 +44,11 @@ SECONDS, WATCHERS = 20.0, 50
 TELEMETRY_S, TICK_S = 0.01, 0.02
 READ_PAUSE_S = 0.01
 TARGETS_MS = {"read of the state": 10.0, "push to a watcher": 50.0, "control loop": 5.0}
+
+STEADY_BOARD = SimulationSettings(
+    parameters=SimulationParameters(board=BoardParameters(telemetry_jitter_s=0))
+)
+"""The simulated cable's own jitter of 2 ms would be counted as the loop's."""
 
 MOVING = re.compile(r'"robot":{"mode":"moving".*?"updated_at":"([^"]+)"}')
 
@@ -74,11 +82,11 @@ def main() -> None:
 
 
 async def _measure(folder: Path, seconds: float, watchers: int) -> Times:
-    async with running(Settings(), folder=folder) as services:
+    async with running(Settings(simulation=STEADY_BOARD), folder=folder) as services:
         await park_first(services)
         app = create_app(lambda: contextlib.nullcontext(services))
         app.state.services = services
-        async with serving(app) as url:
+        async with serving(app) as url, tidying_at_rest(lambda: False):
             began_s, began_cpu_s = time.perf_counter(), time.process_time()
             loop_times = _listen(services)
             helpers = [asyncio.create_task(_tick(loop_times)), asyncio.create_task(_work(services))]
