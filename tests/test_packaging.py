@@ -18,7 +18,12 @@ from tests.support.imports import arrows_in
 
 PROJECT = Path(__file__).parents[1]
 ROOMS = ("server", "drivers", "twin")
-PARTS_OF = {"pydantic-core": "pydantic", "starlette": "fastapi", "typing-extensions": "pydantic"}
+PARTS_OF = {
+    "h11": "uvicorn",
+    "pydantic-core": "pydantic",
+    "starlette": "fastapi",
+    "typing-extensions": "pydantic",
+}
 """Libraries that another one brings along and shows in its own interface."""
 
 

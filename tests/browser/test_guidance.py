@@ -75,8 +75,9 @@ def _tell(client: httpx.Client, **order: object) -> dict[str, Any]:
 def test_a_driver_parks_by_the_phone(phone: Page, server: ServerProcess) -> None:
     server.let_in(phone.context)
     with server.rest() as client:
-        _tell(client, type="drive_in", from_mm=3000, past_mm=25)
         phone.goto(server.url)
+        phone.locator(".link[data-link=live]").wait_for(timeout=PATIENCE_MS)
+        _tell(client, type="drive_in", from_mm=3000, past_mm=25)
         number = phone.locator(f"{CARD} .order-number strong")
         number.wait_for(timeout=PATIENCE_MS)  # the card shows itself
         expect(phone.locator(f"{CARD} .order-way")).to_have_text("forward")
