@@ -11,6 +11,7 @@ from drivers.camera import CameraModel, pi_camera_v2
 from drivers.simulator.camera.imaging import ImagingParameters
 from drivers.simulator.camera.renderer import Renderer
 from drivers.simulator.camera.scene import SceneRenderer
+from server.vision.projection import undistort
 from tests.drivers.simulator.camera.scenes import PAYLOAD, SIZE_MM, pose, view
 from twin.qr_label import label_modules
 
@@ -31,10 +32,7 @@ def brute_force(label: NDArray[np.float64], fineness: int) -> NDArray[np.float64
     u = (np.arange(OPTICS.width)[:, None] + steps).ravel()
     for row in range(OPTICS.height):
         pixels = np.stack(np.broadcast_arrays(u, (row + steps)[:, None]), axis=-1)
-        rays = cv2.undistortPoints(
-            pixels.reshape(-1, 1, 2), OPTICS.matrix, OPTICS.distortion,
-            criteria=(cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 40, 1e-12),
-        ).reshape(fineness, -1, 2)  # fmt: skip
+        rays = undistort(OPTICS, pixels.reshape(-1, 2)).reshape(fineness, -1, 2)
         rays = np.concatenate((rays, np.ones((*rays.shape[:2], 1))), axis=-1)
         normal, origin = label[:3, 2], label[:3, 3]
         distance = (normal @ origin) / (rays @ normal)
