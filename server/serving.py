@@ -20,7 +20,7 @@ from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
-from server.connections import allow_many_files, guarded
+from server.connections import allow_many_files, forgive_the_vanished, guarded
 from server.control.model import RobotMode
 from server.storage.folder_lock import holding
 from server.tidying import tidying_at_rest
@@ -84,6 +84,7 @@ def serve(settings: Settings) -> None:
 
 
 async def _serve(settings: Settings, listener: socket.socket, tls: TlsFiles | None) -> None:
+    forgive_the_vanished(asyncio.get_running_loop())
     optics = settings.camera.optics
     twin = TwinHost(
         settings.geometry,
