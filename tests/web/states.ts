@@ -95,6 +95,7 @@ export function live(changes: Partial<Live> = {}): Live {
     },
     twin: { divergences: [] },
     guidance: null,
+    queue: { waiting: null },
     ...changes,
   };
 }
