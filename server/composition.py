@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 
 import cv2
+from threadpoolctl import threadpool_limits
 
 from drivers.camera import CameraError
 from drivers.errors import UnknownDriverError
@@ -88,6 +89,7 @@ async def running(
     """
     # One thread: on a Raspberry Pi the other cores belong to the robot, the pages and the twin.
     cv2.setNumThreads(1)
+    threadpool_limits(1, "blas")
     speed = settings.clock_speed
     calendar = Calendar(speed)
     devices = devices or _devices(settings, folder)
