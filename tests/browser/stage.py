@@ -113,7 +113,7 @@ class Stage:
         robot = self.live.robot.model_copy(update={"updated_at": updated_at})
         differing = {
             name: getattr(self.live, name)
-            for name in ("job", "station", "service", "twin")
+            for name in ("job", "station", "service", "twin", "guidance")
             if getattr(self.live, name) != getattr(shown, name)
         }
         return LiveChanges(robot=robot, **differing)

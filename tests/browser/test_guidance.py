@@ -114,6 +114,7 @@ def test_the_page_s_own_pedals_drive_the_simulated_car(phone: Page, server: Serv
     server.let_in(phone.context)
     phone.goto(server.url)
     card = phone.locator(CARD)
+    card.wait_for()
     toggle = card.get_by_role("button", name="Parking guidance")
     if toggle.count():
         toggle.tap()

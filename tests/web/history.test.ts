@@ -177,7 +177,7 @@ describe("robot and model", () => {
   test("are spoken of only when they have parted", async () => {
     FakeSocket.newest.says(snapshot(live({ twin: { divergences: [FOUND] } })));
     expect(await screen.findByText("Not as expected")).toBeTruthy();
-    expect(screen.getByText(FOUND.message, { exact: false })).toBeTruthy();
+    expect(screen.getByText("80.00 mm instead of 81.00 mm.", { exact: false })).toBeTruthy();
     FakeSocket.newest.says({
       type: "delta",
       sequence: 2,

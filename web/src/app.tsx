@@ -3,6 +3,7 @@ import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { History } from "@/parts/history";
+import { LanguagePicker } from "@/parts/language-picker";
 import { PlanDialog } from "@/parts/plan";
 import { Progress } from "@/parts/progress";
 import { ReplayDialog } from "@/parts/replay";
@@ -29,6 +30,7 @@ export function App() {
           <Views />
           <History />
           <RobotCard />
+          <LanguagePicker />
         </div>
       </main>
       <StopBar />

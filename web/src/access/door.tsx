@@ -2,6 +2,7 @@
 import { signal } from "@preact/signals";
 import type { FunctionComponent } from "preact";
 import { useEffect } from "preact/hooks";
+import { speaking } from "@/language/catalogue";
 import { Modal } from "@/parts/modal";
 import { Pairing } from "./pairing";
 import { menuOpen, session, useInvitation, waitingInvitation } from "./session";
@@ -12,6 +13,7 @@ const Menu = signal<FunctionComponent<{ onClose: () => void }> | null>(null);
 /** A page for those who are paired, the way in for all others. */
 export function Door({ page: Page }: { page: FunctionComponent }) {
   const who = session.value;
+  if (!speaking.value) return null;
   if (who === null) return <p class="door-wait soft">{say.door.opening}</p>;
   if (!who.paired) return <Pairing />;
   return (

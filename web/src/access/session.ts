@@ -3,6 +3,7 @@ import { effect, signal } from "@preact/signals";
 import type { Signal } from "@preact/signals";
 import { Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
+import { speakPreferred } from "@/language/start";
 import { connect, store } from "@/live/page";
 import { getSession, pairDevice } from "./calls";
 import type { Right, Session } from "./calls";
@@ -31,14 +32,14 @@ export function secretIn(text: string): string | null {
   return FRAGMENT.exec(at < 0 ? text : text.slice(at))?.[1] ?? null;
 }
 
-/** Asks who this browser is, uses the invitation in the address, and watches for the end. */
+/** Speaks, asks who this browser is, uses the invitation in the address, and watches for the end. */
 export async function begin(): Promise<void> {
   addEventListener("hashchange", () => void openInvitation());
   // A lost connection may mean that this device was removed.
   effect(() => {
     if (store.link.value === "lost") void check();
   });
-  await check();
+  await Promise.all([speakPreferred(), check()]);
   await openInvitation();
 }
 

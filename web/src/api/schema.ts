@@ -1842,6 +1842,12 @@ export interface components {
              */
             readonly max_skew_deg: number;
             /**
+             * Reason
+             * @description What is said, for pages in another language
+             * @enum {string}
+             */
+            readonly reason: "disabled" | "robot_offline" | "robot_busy" | "robot_not_homed" | "robot_not_parked" | "plug_held" | "camera_down" | "nothing" | "too_far" | "too_dirty" | "too_dark" | "too_bright" | "other_label" | "twice" | "mirrored" | "no_vehicle" | "hidden" | "left_at_left" | "left_at_right" | "left_at_top" | "left_at_bottom" | "rolls" | "too_fast" | "askew" | "stands" | "too_low" | "too_high" | "stop" | "good" | "good_flawed" | "thin" | "skewed" | "skewed_left" | "skewed_right";
+            /**
              * Remedy
              * @description What to do about a problem; empty without one
              */

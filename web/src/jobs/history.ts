@@ -4,6 +4,7 @@ import { listJobs, Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { Job } from "@/api/wire";
 import { formatEnergy } from "@/format";
+import { told } from "@/language/problems";
 import { words } from "@/words";
 import { isActive } from "@/robot/job";
 
@@ -26,7 +27,7 @@ export async function loadHistory(): Promise<void> {
 export function outcomeOf(job: Job): string {
   const say = words.history;
   if (job.state === "cancelled") return say.cancelled;
-  if (job.state === "failed") return job.error?.title ?? say.failed;
+  if (job.state === "failed") return job.error === null ? say.failed : told(job.error).title;
   if (job.type === "charge" && job.result.energy_wh != null) {
     return say.charged(formatEnergy(job.result.energy_wh));
   }

@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { formatForce, formatPoint } from "@/format";
+import { formatForce, formatNumber, formatPoint } from "@/format";
 import { store } from "@/live/page";
 import { command, pending, pressStop } from "@/robot/actions";
 import { canAct } from "@/robot/view";
@@ -44,7 +44,7 @@ function RobotFigures() {
           {measured === null ? say.unknown : formatForce(measured.force_n)}
         </Row>
         <Row label={say.socket}>
-          {socket === null ? say.unknown : `± ${socket.lateral_sigma_mm.toFixed(2)} mm`}
+          {socket === null ? say.unknown : `± ${formatNumber(socket.lateral_sigma_mm, 2)} mm`}
         </Row>
         <Row label={say.driver}>{robot.driver}</Row>
         {service.simulated_parts.length > 0 && (
