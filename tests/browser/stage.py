@@ -75,12 +75,12 @@ class Stage:
         refuse_jobs: Answer new jobs with a problem.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, static_dir: Path = STATIC_DIR) -> None:
         self.live: Live = SCENES["ready"]
         self.requests: list[str] = []
         self.refuse_jobs = False
         self.app = FastAPI()
-        self.app.include_router(pages_router(STATIC_DIR))
+        self.app.include_router(pages_router(static_dir))
         self.app.websocket("/api/v1/ws")(self._send_live)
         self.app.get("/api/v1/access/session")(self._session)
         self.app.get("/api/v1/vehicles")(self._vehicles)
@@ -147,9 +147,12 @@ class Stage:
 
 
 @contextmanager
-def serve(stage: Stage) -> Iterator[str]:
-    """Serves the stage from a thread of its own; gives its address."""
-    listener = socket.create_server(("127.0.0.1", 0))
+def serve(stage: Stage, port: int = 0) -> Iterator[str]:
+    """Serves the stage from a thread of its own, at a free port or a given one.
+
+    Gives its address.
+    """
+    listener = socket.create_server(("127.0.0.1", port))
     port = listener.getsockname()[1]
     config = uvicorn.Config(stage.app, log_level="warning", ws="websockets-sansio", lifespan="off")
     server = uvicorn.Server(config)

@@ -15,6 +15,8 @@ const AGAIN_MS = 3000;
 export const session: Signal<Session | null> = signal(null);
 /** The secret of an invitation that waits for a yes, because this browser is paired already. */
 export const waitingInvitation: Signal<string | null> = signal(null);
+/** The robot has not answered since this page was opened. */
+export const unanswered = signal(false);
 /** Why the last attempt to get in failed. */
 export const doorTrouble: Signal<Trouble | null> = signal(null);
 
@@ -80,8 +82,10 @@ async function openInvitation(): Promise<void> {
 async function check(): Promise<void> {
   try {
     enter(await getSession());
+    unanswered.value = false;
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
+    unanswered.value = session.value === null;
     // The server is away; until it is back nobody can say who this is.
     if (session.value === null || store.link.value === "lost") {
       setTimeout(() => void check(), AGAIN_MS);

@@ -5378,6 +5378,7 @@ export interface operations {
                      *       "driver_faces": "robot",
                      *       "headline": "Go on forward",
                      *       "max_skew_deg": 3,
+                     *       "reason": "rolls",
                      *       "remedy": "",
                      *       "since": "2026-03-01T18:04:03.400Z",
                      *       "state": "move",

@@ -40,6 +40,13 @@ export function catalogue<Words extends object>(load: (spoken: Language) => Prom
   });
 }
 
+let announce: () => void;
+
+/** Comes true when the first words are there: what happens before has nothing to say it with. */
+export const firstWords = new Promise<void>((resolve) => {
+  announce = resolve;
+});
+
 /** Loads all words of a language, then speaks it everywhere at once. */
 export async function speak(next: Language): Promise<void> {
   const loaded = await Promise.all(catalogues.map((load) => load(next)));
@@ -48,5 +55,6 @@ export async function speak(next: Language): Promise<void> {
     language.value = next;
     speaking.value = true;
   });
+  announce();
   document.documentElement.lang = next;
 }
