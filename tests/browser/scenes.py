@@ -192,6 +192,11 @@ SCENES: dict[str, Live] = {
         robot(RobotMode.MOVING, PlugState.INSERTED, force_n=79.1), job(JobPhase.INSERTING)
     ).model_copy(update={"twin": _PARTED}),
     "charging": live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
+    "charging_priced": live(
+        _IN,
+        job(JobPhase.CHARGING, seconds=5025, result=JobResult(cost=14.37, currency="EUR")),
+        station(10_980, 15_340),
+    ),
     "withdrawing": live(
         robot(RobotMode.MOVING, PlugState.INSERTED),
         job(JobPhase.WITHDRAWING, JobType.UNPLUG),

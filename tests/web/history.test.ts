@@ -6,6 +6,7 @@ import type { Job } from "@/api/wire";
 import { formatSize } from "@/format";
 import { history, outcomeOf } from "@/jobs/history";
 import { chapterAt, chaptersOf, closeReplay, playbackAddress } from "@/jobs/replay";
+import { speak } from "@/language/catalogue";
 import { channel } from "@/live/page";
 import { FakeRest } from "./rest";
 import { FakeSocket } from "./socket";
@@ -154,6 +155,24 @@ describe("watching again", () => {
 
   test("asks for the file under the job's own name", () => {
     expect(playbackAddress(job({ id: "a b" }))).toContain("a%2520b");
+  });
+});
+
+describe("the cost", () => {
+  const result = { energy_wh: 21_480, cost: 6.444, currency: "EUR" };
+
+  test("stands beside the energy, as the reader's country writes money", async () => {
+    const priced = job({ state: "succeeded", result });
+    expect(outcomeOf(priced)).toBe("21.5 kWh for €6.44");
+    await speak("de");
+    expect(outcomeOf(priced)).toBe("21,5 kWh für 6,44\u00a0€");
+    await speak("en");
+  });
+
+  test("is left out where nobody has set a tariff", () => {
+    expect(outcomeOf(job({ state: "succeeded", result: { energy_wh: 21_480 } }))).toBe(
+      "21.5 kWh charged",
+    );
   });
 });
 

@@ -13,6 +13,11 @@ export function formatEnergy(energy_wh: number): string {
   return `${formatNumber(energy_wh / 1000, 1)} kWh`;
 }
 
+/** Money as the reader's country writes it; the currency is ISO 4217. */
+export function formatMoney(amount: number, currency: string): string {
+  return new Intl.NumberFormat(locale.value, { style: "currency", currency }).format(amount);
+}
+
 /** Power in kW. */
 export function formatPower(power_w: number): string {
   return `${formatNumber(power_w / 1000, 1)} kW`;

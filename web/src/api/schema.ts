@@ -2354,6 +2354,21 @@ export interface components {
          */
         readonly JobResult: {
             /**
+             * Cost
+             * @description Of that energy, in the currency; null without a tariff
+             */
+            readonly cost?: number | null;
+            /**
+             * Cost At
+             * @description Up to when the cost is counted
+             */
+            readonly cost_at?: string | null;
+            /**
+             * Currency
+             * @description ISO 4217, of the cost
+             */
+            readonly currency?: string | null;
+            /**
              * Energy Wh
              * @description Energy charged
              */

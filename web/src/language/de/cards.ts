@@ -36,6 +36,7 @@ export const cards: CardWords = {
     energy: "Energie",
     force: "Kraft",
     elapsed: "Zeit",
+    cost: "Kosten",
     offline: "Die Ladestation antwortet nicht.",
   },
   views: {
@@ -59,6 +60,7 @@ export const cards: CardWords = {
     cancelled: "Abgebrochen",
     failed: "Hat nicht geklappt",
     charged: (energy) => `${energy} geladen`,
+    chargedFor: (energy, cost) => `${energy} für ${cost}`,
     done: { charge: "Geladen", plug_in: "Angesteckt", unplug: "Ausgesteckt" },
     preparing: "Die Aufzeichnung wird vorbereitet…",
     player: "Aufgezeichneter Auftrag in 3D",

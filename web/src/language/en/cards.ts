@@ -36,6 +36,7 @@ export const cards = {
     energy: "Energy",
     force: "Force",
     elapsed: "Time",
+    cost: "Cost",
     offline: "The charging station is not answering.",
   },
   views: {
@@ -59,6 +60,7 @@ export const cards = {
     cancelled: "Cancelled",
     failed: "Did not work",
     charged: (energy: string): string => `${energy} charged`,
+    chargedFor: (energy: string, cost: string): string => `${energy} for ${cost}`,
     done: { charge: "Charged", plug_in: "Plugged in", unplug: "Unplugged" },
     preparing: "Getting the recording ready…",
     player: "Recorded job in 3D",

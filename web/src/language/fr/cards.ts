@@ -36,6 +36,7 @@ export const cards: CardWords = {
     energy: "Énergie",
     force: "Force",
     elapsed: "Durée",
+    cost: "Coût",
     offline: "La borne de recharge ne répond pas.",
   },
   views: {
@@ -59,6 +60,7 @@ export const cards: CardWords = {
     cancelled: "Annulée",
     failed: "N’a pas marché",
     charged: (energy) => `${energy} chargés`,
+    chargedFor: (energy, cost) => `${energy} pour ${cost}`,
     done: { charge: "Voiture chargée", plug_in: "Voiture branchée", unplug: "Voiture débranchée" },
     preparing: "Préparation de l’enregistrement…",
     player: "Tâche enregistrée en 3D",

@@ -36,6 +36,7 @@ export const cards: CardWords = {
     energy: "Energia",
     force: "Forza",
     elapsed: "Tempo",
+    cost: "Costo",
     offline: "La stazione di ricarica non risponde.",
   },
   views: {
@@ -59,6 +60,7 @@ export const cards: CardWords = {
     cancelled: "Annullata",
     failed: "Non riuscita",
     charged: (energy) => `${energy} ricaricati`,
+    chargedFor: (energy, cost) => `${energy} per ${cost}`,
     done: { charge: "Auto ricaricata", plug_in: "Auto collegata", unplug: "Auto scollegata" },
     preparing: "Preparazione della registrazione…",
     player: "Attività registrata in 3D",
