@@ -44,6 +44,10 @@ OWNER = AccessSession(
     screen=False,
 )
 
+STRANGER = AccessSession(
+    paired=False, person=None, device_id=None, rights=[], passkeys=False, screen=False
+)
+
 PAST_JOB = job(JobPhase.PARKING, state=JobState.SUCCEEDED).model_copy(
     update={"recording": RecordingInfo(size_bytes=1_500_000)}
 )
@@ -72,11 +76,13 @@ class Stage:
     Attributes:
         live: The state that every page sees.
         requests: Method and path of every REST call, in order.
+        session: Who looks at the page.
         refuse_jobs: Answer new jobs with a problem.
     """
 
     def __init__(self, static_dir: Path = STATIC_DIR) -> None:
         self.live: Live = SCENES["ready"]
+        self.session = OWNER
         self.requests: list[str] = []
         self.refuse_jobs = False
         self.app = FastAPI()
@@ -119,7 +125,7 @@ class Stage:
         return LiveChanges(robot=robot, **differing)
 
     async def _session(self) -> AccessSession:
-        return OWNER
+        return self.session
 
     async def _vehicles(self) -> VehicleList:
         return VEHICLES

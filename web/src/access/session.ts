@@ -9,7 +9,7 @@ import { getSession, pairDevice } from "./calls";
 import type { Right, Session } from "./calls";
 
 const FRAGMENT = /^#pair=([\w-]{10,128})$/;
-const AGAIN_MS = 3000;
+const AGAIN_MS = 1500;
 
 /** Null until the server has said. */
 export const session: Signal<Session | null> = signal(null);
