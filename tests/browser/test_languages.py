@@ -72,7 +72,7 @@ def home(page: Page, address: str, stage: Stage, language: str) -> Page:
 
 def _named(live: Live, name: str) -> Live:
     """With a sign by which the page shows that it has arrived."""
-    return live.model_copy(update={"service": live.service.model_copy(update={"version": name})})
+    return live.model_copy(update={"robot": live.robot.model_copy(update={"driver": name})})
 
 
 def test_no_state_runs_over(home: Page, stage: Stage) -> None:
