@@ -16,7 +16,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format audit sbom bench bench-vision campaign fuzz fuzz-api hostile \
+.PHONY: help setup run test lint format audit sbom bench bench-vision shots campaign fuzz fuzz-api hostile \
 	kill rig board lock clean \
 	setup-dev system-packages \
 	check-style check-types check-web test-python test-web
@@ -64,6 +64,10 @@ rig: setup-dev system-packages ## test the real firmware at length: fault by fau
 
 board: setup system-packages ## a simulated board with the real firmware, for serve --driver arduino
 	@exec $(BIN)/python -m tests.rig $(ARGS)
+
+shots: setup-dev system-packages ## take a picture of every page and state into build/shots; STATE... in ARGS
+	@mkdir -p build/shots
+	@$(BIN)/python -m tests.browser.shots build/shots $(ARGS)
 
 campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
 	@$(BIN)/plugpilot simulate campaign $(ARGS)

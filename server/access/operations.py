@@ -15,6 +15,9 @@ OPERATIONS: Mapping[str, Need] = {
     "GET /": Need.ANYONE,
     "GET /technician": Need.ANYONE,
     "GET /assets/{name}": Need.ANYONE,
+    "GET /icons/{name}": Need.ANYONE,
+    "GET /manifest.webmanifest": Need.ANYONE,
+    "GET /worker.js": Need.ANYONE,
     "GET /root.crt": Need.ANYONE,
     "GET /api/v1/openapi.json": Need.READ,
     # the 3D picture

@@ -120,6 +120,7 @@ MODELS: dict[str, Json] = {
         "state": "move",
         "since": "2026-03-01T18:04:03.400Z",
         "arriving": True,
+        "reason": "rolls",
         "headline": "Go on forward",
         "detail": "Still 35 cm to go.",
         "remedy": "",

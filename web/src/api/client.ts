@@ -1,4 +1,5 @@
 /** Calls to the REST API; every failure becomes a Refusal with words for a person. */
+import { firstWords } from "@/language/catalogue";
 import { words } from "@/words";
 import { randomKey } from "./key";
 import type {
@@ -64,9 +65,13 @@ export async function call<Answer>(path: string, options: Call = {}): Promise<An
     response = await fetch(ROOT + path, request);
     text = await response.text();
   } catch {
+    await firstWords;
     throw new Refusal(words.trouble.unreachable, false);
   }
-  if (!response.ok) throw new Refusal(troubleIn(text), true);
+  if (!response.ok) {
+    await firstWords;
+    throw new Refusal(troubleIn(text), true);
+  }
   return (text === "" ? undefined : JSON.parse(text)) as Answer;
 }
 

@@ -1845,6 +1845,12 @@ export interface components {
              */
             readonly max_skew_deg: number;
             /**
+             * Reason
+             * @description What is said, for pages in another language
+             * @enum {string}
+             */
+            readonly reason: "disabled" | "robot_offline" | "robot_busy" | "robot_not_homed" | "robot_not_parked" | "plug_held" | "camera_down" | "nothing" | "too_far" | "too_dirty" | "too_dark" | "too_bright" | "other_label" | "twice" | "mirrored" | "no_vehicle" | "hidden" | "left_at_left" | "left_at_right" | "left_at_top" | "left_at_bottom" | "rolls" | "too_fast" | "askew" | "stands" | "too_low" | "too_high" | "stop" | "good" | "good_flawed" | "thin" | "skewed" | "skewed_left" | "skewed_right";
+            /**
              * Remedy
              * @description What to do about a problem; empty without one
              */
@@ -2350,6 +2356,21 @@ export interface components {
          * @description What a job measured; null where it did not get that far.
          */
         readonly JobResult: {
+            /**
+             * Cost
+             * @description Of that energy, in the currency; null without a tariff
+             */
+            readonly cost?: number | null;
+            /**
+             * Cost At
+             * @description Up to when the cost is counted
+             */
+            readonly cost_at?: string | null;
+            /**
+             * Currency
+             * @description ISO 4217, of the cost
+             */
+            readonly currency?: string | null;
             /**
              * Energy Wh
              * @description Energy charged
@@ -5401,6 +5422,7 @@ export interface operations {
                      *       "driver_faces": "robot",
                      *       "headline": "Go on forward",
                      *       "max_skew_deg": 3,
+                     *       "reason": "rolls",
                      *       "remedy": "",
                      *       "since": "2026-03-01T18:04:03.400Z",
                      *       "state": "move",

@@ -14,16 +14,20 @@ export type JobType = Schemas["JobType"];
 export type JobState = Schemas["JobState"];
 export type JobPhase = Schemas["JobPhase"];
 export type JobRequest = Schemas["JobRequest"];
+export type NeedsPerson = Schemas["NeedsPerson"];
 export type JobPage = Schemas["JobPage"];
 export type Playback = Schemas["Playback"];
 export type Guidance = Schemas["Guidance"];
 export type GuidanceStep = Schemas["GuidanceStep"];
+export type GuidanceReason = Guidance["reason"];
 export type GuidedCar = Schemas["GuidedCar"];
 export type CarCommand =
   | Schemas["DriveIn"]
   | Schemas["DriveOn"]
   | Schemas["Brake"]
   | Schemas["Leave"];
+export type Divergence = Schemas["DivergenceReport"];
+export type Quantity = Schemas["Quantity"];
 export type Problem = Schemas["Problem"];
 export type Vehicle = Schemas["Vehicle"];
 export type VehicleList = Schemas["VehicleList"];
