@@ -38,6 +38,9 @@ OPERATIONS: Mapping[str, Need] = {
     "getRobotReach": Need.READ,
     "jogRobot": Need.SERVICE,
     "confirmPlug": Need.OPERATE,
+    "readFrames": Need.SERVICE,
+    "chooseTarget": Need.SERVICE,
+    "forgetTarget": Need.SERVICE,
     # jobs
     "createJob": Need.OPERATE,
     "listJobs": Need.READ,
@@ -58,6 +61,8 @@ OPERATIONS: Mapping[str, Need] = {
     "getStation": Need.READ,
     "getCameraSnapshot": Need.READ,
     "streamCamera": Need.READ,
+    "inspectCamera": Need.READ,
+    "getInspectedPicture": Need.READ,
     # arriving cars
     "getGuidance": Need.READ,
     "getSimulatedCar": Need.READ,
@@ -111,6 +116,7 @@ MESSAGES: Mapping[str, Need] = {
     "emergency_stop": Need.STOP,
     "jog": Need.SERVICE,
     "jog_step": Need.SERVICE,
+    "move_to": Need.SERVICE,
     "jog_end": Need.SERVICE,
     "resync": Need.READ,
 }

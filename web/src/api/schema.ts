@@ -386,6 +386,48 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/camera/inspection": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Look closely at a picture
+         * @description The newest picture with its label, pose and uncertainty; waits for one that is not known.
+         *
+         *     The camera is looked at for as long as somebody asks.
+         */
+        readonly get: operations["inspectCamera"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/camera/inspection/{sequence}.jpg": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read the picture that was looked at
+         * @description The picture of an inspection; only the newest few are kept.
+         */
+        readonly get: operations["getInspectedPicture"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/camera/snapshot.jpg": {
         readonly parameters: {
             readonly query?: never;
@@ -916,6 +958,28 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/frames": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Follow the link to the board
+         * @description What went to and from the motion board since the last look; waits a second for news.
+         *
+         *     Nothing is kept before somebody asks, nor when nobody has asked for some seconds.
+         */
+        readonly get: operations["readFrames"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot/home": {
         readonly parameters: {
             readonly query?: never;
@@ -1031,6 +1095,30 @@ export interface paths {
          */
         readonly post: operations["stopRobot"];
         readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/robot/target": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Plan a way to a place
+         * @description Plan and check the straight way of the plug's tip to a place. Nothing moves.
+         */
+        readonly post: operations["chooseTarget"];
+        /**
+         * Forget the place
+         * @description Nobody wants to go there any more.
+         */
+        readonly delete: operations["forgetTarget"];
         readonly options?: never;
         readonly head?: never;
         readonly patch?: never;
@@ -1295,6 +1383,34 @@ export interface components {
             readonly screen: boolean;
         };
         /**
+         * ActuatorForce
+         * @description What one actuator carries at the worst place of the way.
+         */
+        readonly ActuatorForce: {
+            /**
+             * At S
+             * @description After the start
+             */
+            readonly at_s: number;
+            /**
+             * Force N
+             * @description Positive along growing rho
+             */
+            readonly force_n: number;
+            /**
+             * Joint
+             * @enum {string}
+             */
+            readonly joint: "rho1" | "rho2" | "rho3";
+            /** Limit N */
+            readonly limit_n: number;
+            /**
+             * Share
+             * @description Of the limit, 1 on it
+             */
+            readonly share: number;
+        };
+        /**
          * Attempt
          * @description One attempt to deliver.
          */
@@ -1377,6 +1493,64 @@ export interface components {
             readonly type: "brake";
         };
         /**
+         * CameraInspection
+         * @description One picture of the camera, looked at closely.
+         */
+        readonly CameraInspection: {
+            /**
+             * Age S
+             * @description From the middle of the exposure to the end of the look
+             */
+            readonly age_s: number;
+            /**
+             * Bright Share
+             * @description Pixels that are clipped
+             */
+            readonly bright_share: number;
+            /**
+             * Brightness
+             * @description Mean grey value
+             */
+            readonly brightness: number;
+            /**
+             * Dark Share
+             * @description Pixels without any light
+             */
+            readonly dark_share: number;
+            /**
+             * Exposure Ms
+             * @description Null when the camera does not tell
+             */
+            readonly exposure_ms: number | null;
+            /**
+             * Frames Per S
+             * @description Of the sensor; null after the first picture
+             */
+            readonly frames_per_s: number | null;
+            /** Height Px */
+            readonly height_px: number;
+            readonly label: components["schemas"]["SeenLabel"] | null;
+            /**
+             * Sequence
+             * @description Grows; names the picture
+             */
+            readonly sequence: number;
+            /**
+             * Taken At
+             * Format: date-time
+             * @description Middle of the exposure
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly taken_at: string;
+            /** @description Why there is no label, or no pose that deserves trust */
+            readonly trouble: components["schemas"]["Problem"] | null;
+            /**
+             * Width Px
+             * @description Of the camera; the picture itself may be sent smaller
+             */
+            readonly width_px: number;
+        };
+        /**
          * ChargePoint
          * @description One charger. A car is connected (B) as soon as the robot could plug it in.
          */
@@ -1440,7 +1614,7 @@ export interface components {
              */
             readonly updated_at: string | null;
         };
-        readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
+        readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["MoveToMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
          * CommandedMotion
          * @description What the board was told.
@@ -1814,6 +1988,89 @@ export interface components {
          */
         readonly FaultBegan: {
             readonly fault: components["schemas"]["RobotFault"];
+        };
+        /**
+         * FittedPose
+         * @description The pose of the label, as the camera sees it, and how good it is.
+         */
+        readonly FittedPose: {
+            /**
+             * Axes Px
+             * @description From the centre: the label's right, its bottom, and out of the car; half a label long
+             */
+            readonly axes_px: readonly [
+                readonly [
+                    number,
+                    number
+                ],
+                readonly [
+                    number,
+                    number
+                ],
+                readonly [
+                    number,
+                    number
+                ]
+            ];
+            /** @description Uncertainty of the label's centre in the picture */
+            readonly ellipse: components["schemas"]["PixelEllipse"];
+            /**
+             * Inlier Share
+             * @description Measured edges that agree with the model
+             */
+            readonly inlier_share: number;
+            /**
+             * Measurements
+             * @description Edges measured; 4 for corners
+             */
+            readonly measurements: number;
+            /**
+             * Position Mm
+             * @description Label centre in the camera frame: right, down, ahead
+             */
+            readonly position_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Position Sigma Mm
+             * @description Standard deviations of the position
+             */
+            readonly position_sigma_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Residual Px
+             * @description Root mean square distance of edges and model
+             */
+            readonly residual_px: number;
+            /**
+             * Source
+             * @description All module edges; or, too coarse to move by, the four corners
+             * @enum {string}
+             */
+            readonly source: "edges" | "corners";
+            /**
+             * Turn Deg
+             * @description Rotation vector of T_camera_label
+             */
+            readonly turn_deg: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Turn Sigma Deg
+             * @description Standard deviations about the camera's axes
+             */
+            readonly turn_sigma_deg: readonly [
+                number,
+                number,
+                number
+            ];
         };
         /**
          * Guidance
@@ -2635,6 +2892,51 @@ export interface components {
             readonly tip: components["schemas"]["Tip"] | null;
         };
         /**
+         * MoveTarget
+         * @description The way there, checked along its whole length. Nothing has moved.
+         *
+         *     To go there send ``move_to`` with its id on the WebSocket for as long as a button is held. It
+         *     is valid until the robot moves otherwise, or another target is chosen.
+         */
+        readonly MoveTarget: {
+            /** Distance Mm */
+            readonly distance_mm: number;
+            /** Duration S */
+            readonly duration_s: number;
+            /** Forces */
+            readonly forces: readonly components["schemas"]["ActuatorForce"][];
+            /** Id */
+            readonly id: string;
+            /** @description Of the robot there */
+            readonly joints: components["schemas"]["Joints"];
+            readonly tip: components["schemas"]["Tip"];
+            /**
+             * Way
+             * @description Of the plug's tip, evenly in time
+             */
+            readonly way: readonly components["schemas"]["Tip"][];
+        };
+        /**
+         * MoveToMessage
+         * @description Hold to follow the way to a target: send it every 100 ms while the button is held.
+         *
+         *     250 ms without one, ``jog_end``, or a closed connection stops the motion.
+         */
+        readonly MoveToMessage: {
+            /**
+             * Id
+             * @default null
+             */
+            readonly id?: number | null;
+            /** Target Id */
+            readonly target_id: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "move_to";
+        };
+        /**
          * Need
          * @description What an operation needs.
          *
@@ -2880,6 +3182,27 @@ export interface components {
             readonly type: "ping";
         };
         /**
+         * PixelEllipse
+         * @description One standard deviation of a place in the picture.
+         */
+        readonly PixelEllipse: {
+            /**
+             * Angle Rad
+             * @description From the picture's x axis to the long axis, towards y
+             */
+            readonly angle_rad: number;
+            /**
+             * Major Px
+             * @description Long half axis; times 2.4477 it holds 95 %
+             */
+            readonly major_px: number;
+            /**
+             * Minor Px
+             * @description Short half axis
+             */
+            readonly minor_px: number;
+        };
+        /**
          * Playback
          * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
          */
@@ -3006,6 +3329,71 @@ export interface components {
              * @example urn:plugpilot:problem:control_busy
              */
             readonly type: string;
+        };
+        /**
+         * ProtocolFrame
+         * @description One message between host and board.
+         */
+        readonly ProtocolFrame: {
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Direction
+             * @enum {string}
+             */
+            readonly direction: "to_board" | "from_board";
+            /**
+             * Error
+             * @description It tells of something that went wrong
+             */
+            readonly error: boolean;
+            /**
+             * Kind
+             * @example Telemetry
+             */
+            readonly kind: string;
+            /**
+             * Number
+             * @description Grows by one for each, for as long as somebody looks
+             */
+            readonly number: number;
+            /**
+             * Size Bytes
+             * @description On the wire; null where there is none
+             */
+            readonly size_bytes: number | null;
+            /**
+             * Words
+             * @description Its contents
+             */
+            readonly words: string;
+        };
+        /**
+         * ProtocolFrames
+         * @description What has passed since the last look, oldest first.
+         */
+        readonly ProtocolFrames: {
+            /**
+             * Available
+             * @description False with a driver that cannot tell
+             */
+            readonly available: boolean;
+            /** Frames */
+            readonly frames: readonly components["schemas"]["ProtocolFrame"][];
+            /**
+             * Lost
+             * @description Frames that were forgotten before they could be read
+             */
+            readonly lost: number;
+            /**
+             * Newest
+             * @description To be sent as ``after`` next time
+             */
+            readonly newest: number;
         };
         /**
          * Quantity
@@ -3152,6 +3540,34 @@ export interface components {
          * @enum {string}
          */
         readonly Scope: "read" | "operate" | "charge-point" | "service" | "admin";
+        /**
+         * SeenLabel
+         * @description A label that was read in the picture.
+         */
+        readonly SeenLabel: {
+            /** Centre Px */
+            readonly centre_px: readonly [
+                number,
+                number
+            ];
+            /**
+             * Outline Px
+             * @description Its border, in order, as the lens bends it
+             */
+            readonly outline_px: readonly (readonly [
+                number,
+                number
+            ])[];
+            /** Payload */
+            readonly payload: string;
+            /** @description Null when its size is unknown or nothing fits */
+            readonly pose: components["schemas"]["FittedPose"] | null;
+            /**
+             * Vehicle Id
+             * @description Whose label it is; null if nobody's
+             */
+            readonly vehicle_id: string | null;
+        };
         readonly ServerMessage: components["schemas"]["SnapshotMessage"] | components["schemas"]["DeltaMessage"] | components["schemas"]["ReplyMessage"];
         /**
          * Service
@@ -3352,6 +3768,21 @@ export interface components {
              * @enum {string}
              */
             readonly type: "stop";
+        };
+        /**
+         * TargetRequest
+         * @description Where the plug's tip shall be; how far it is out stays as it is.
+         */
+        readonly TargetRequest: {
+            /**
+             * Speed Mm S
+             * @default 10
+             */
+            readonly speed_mm_s?: number;
+            /** X Mm */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
         };
         /**
          * Tip
@@ -4885,6 +5316,148 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly inspectCamera: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description Number of the one that is known already */
+                readonly after?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "age_s": 0.0871,
+                     *       "bright_share": 0.0004,
+                     *       "brightness": 108.4,
+                     *       "dark_share": 0.0021,
+                     *       "exposure_ms": 8,
+                     *       "frames_per_s": 29.97,
+                     *       "height_px": 1232,
+                     *       "label": {
+                     *         "centre_px": [
+                     *           735.61,
+                     *           514.07
+                     *         ],
+                     *         "outline_px": [
+                     *           [
+                     *             612.4,
+                     *             388.1
+                     *           ],
+                     *           [
+                     *             861.9,
+                     *             391.6
+                     *           ],
+                     *           [
+                     *             858.2,
+                     *             640.7
+                     *           ],
+                     *           [
+                     *             609.8,
+                     *             636
+                     *           ]
+                     *         ],
+                     *         "payload": "PP2:zoe:4NG43RRFJW",
+                     *         "pose": {
+                     *           "axes_px": [
+                     *             [
+                     *               860.2,
+                     *               516.2
+                     *             ],
+                     *             [
+                     *               733.9,
+                     *               638.4
+                     *             ],
+                     *             [
+                     *               742,
+                     *               509.3
+                     *             ]
+                     *           ],
+                     *           "ellipse": {
+                     *             "angle_rad": 0.4121,
+                     *             "major_px": 0.013312,
+                     *             "minor_px": 0.012204
+                     *           },
+                     *           "inlier_share": 0.9781,
+                     *           "measurements": 1264,
+                     *           "position_mm": [
+                     *             -14.231,
+                     *             7.9,
+                     *             318.442
+                     *           ],
+                     *           "position_sigma_mm": [
+                     *             0.00412,
+                     *             0.00398,
+                     *             0.02103
+                     *           ],
+                     *           "residual_px": 0.0814,
+                     *           "source": "edges",
+                     *           "turn_deg": [
+                     *             1.204,
+                     *             -0.871,
+                     *             0.402
+                     *           ],
+                     *           "turn_sigma_deg": [
+                     *             0.02113,
+                     *             0.01987,
+                     *             0.00304
+                     *           ]
+                     *         },
+                     *         "vehicle_id": "zoe"
+                     *       },
+                     *       "sequence": 42,
+                     *       "taken_at": "2026-03-01T18:04:05.120Z",
+                     *       "trouble": null,
+                     *       "width_px": 1640
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CameraInspection"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getInspectedPicture: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly sequence: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The picture */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "image/jpeg": unknown;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getCameraSnapshot: {
         readonly parameters: {
             readonly query?: never;
@@ -6298,6 +6871,62 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly readFrames: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description ``newest`` of the last answer */
+                readonly after?: number;
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "available": true,
+                     *       "frames": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "direction": "to_board",
+                     *           "error": false,
+                     *           "kind": "Heartbeat",
+                     *           "number": 1041,
+                     *           "size_bytes": 8,
+                     *           "words": "seq=0 ack=0"
+                     *         },
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "direction": "from_board",
+                     *           "error": true,
+                     *           "kind": "Event",
+                     *           "number": 1042,
+                     *           "size_bytes": 16,
+                     *           "words": "seq=3 ack=18 kind=REFUSED code=8 seq=17 detail=0 tick=812034"
+                     *         }
+                     *       ],
+                     *       "lost": 0,
+                     *       "newest": 1042
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ProtocolFrames"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly homeRobot: {
         readonly parameters: {
             readonly query?: never;
@@ -6689,6 +7318,125 @@ export interface operations {
             };
             readonly 401: components["responses"]["Problem401"];
             readonly 403: components["responses"]["Problem403"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly chooseTarget: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "speed_mm_s": 10,
+                 *       "x_mm": 700,
+                 *       "y_mm": 360
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["TargetRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "distance_mm": 87.641,
+                     *       "duration_s": 9.014,
+                     *       "forces": [
+                     *         {
+                     *           "at_s": 9.014,
+                     *           "force_n": 61.2,
+                     *           "joint": "rho1",
+                     *           "limit_n": 150,
+                     *           "share": 0.408
+                     *         },
+                     *         {
+                     *           "at_s": 0,
+                     *           "force_n": -58.7,
+                     *           "joint": "rho2",
+                     *           "limit_n": 150,
+                     *           "share": 0.3913
+                     *         },
+                     *         {
+                     *           "at_s": 0,
+                     *           "force_n": -9.4,
+                     *           "joint": "rho3",
+                     *           "limit_n": 120,
+                     *           "share": 0.0783
+                     *         }
+                     *       ],
+                     *       "id": "0d4b7b0e-6f0b-4a53-9a55-7a2f0c1b9d11",
+                     *       "joints": {
+                     *         "rho1_mm": 489.132,
+                     *         "rho2_mm": 611.07,
+                     *         "rho3_mm": 50
+                     *       },
+                     *       "tip": {
+                     *         "x_mm": 700,
+                     *         "y_mm": 360,
+                     *         "z_mm": 142
+                     *       },
+                     *       "way": [
+                     *         {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         },
+                     *         {
+                     *           "x_mm": 658,
+                     *           "y_mm": 347.5,
+                     *           "z_mm": 142
+                     *         },
+                     *         {
+                     *           "x_mm": 700,
+                     *           "y_mm": 360,
+                     *           "z_mm": 142
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["MoveTarget"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly forgetTarget: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
     };

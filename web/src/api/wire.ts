@@ -34,6 +34,10 @@ export type ReplyMessage = Schemas["ReplyMessage"];
 export type ServerMessage = SnapshotMessage | DeltaMessage | ReplyMessage;
 
 export type Reach = Schemas["Reach"];
+export type ProtocolFrame = Schemas["ProtocolFrame"];
+export type ProtocolFrames = Schemas["ProtocolFrames"];
+export type MoveTarget = Schemas["MoveTarget"];
+export type CameraInspection = Schemas["CameraInspection"];
 export type JogMessage = Schemas["JogMessage"];
 export type JogStepMessage = Schemas["JogStepMessage"];
 export type JogAxis = JogMessage["axis"];

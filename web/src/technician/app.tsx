@@ -1,11 +1,13 @@
 import { QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
-import { Views } from "@/parts/views";
+import { CameraPanel } from "./camera/panel";
+import { ConsolePanel } from "./console/panel";
 import { JogPad } from "./jog/pad";
 import { Plots } from "./readings/plots";
 import { Values } from "./readings/values";
 import { RobotBox } from "./robot";
 import { Stops } from "./stop";
+import { TargetPanel } from "./target/panel";
 import { say } from "./words";
 
 /** The technician's page: everything about the robot at one glance, stop always in reach. */
@@ -21,10 +23,12 @@ export function Technician() {
         </div>
         <div class="column">
           <JogPad />
-          <Views />
+          <TargetPanel />
         </div>
         <div class="column">
           <Plots />
+          <CameraPanel />
+          <ConsolePanel />
         </div>
       </main>
       <Stops />

@@ -11,6 +11,10 @@ import "@/access/access.css";
 import "./bench.css";
 import "./jog/jog.css";
 import "./readings/readings.css";
+import "./parts/panel.css";
+import "./camera/camera.css";
+import "./target/target.css";
+import "./console/console.css";
 import { Technician } from "./app";
 
 const root = document.getElementById("app");
