@@ -84,6 +84,10 @@ OPERATIONS: Mapping[str, Need] = {
     "listWebhookDeliveries": Need.ADMIN,
     "getConfig": Need.ADMIN,
     "patchConfig": Need.ADMIN,
+    "getConfigFields": Need.ADMIN,
+    "checkConfig": Need.ADMIN,
+    "listConfigVersions": Need.ADMIN,
+    "restoreConfig": Need.ADMIN,
     # oneself, and getting in
     "getSession": Need.ANYONE,
     "pairDevice": Need.ANYONE,

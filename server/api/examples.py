@@ -232,6 +232,7 @@ MODELS: dict[str, Json] = {
 
 BODIES: dict[str, Json] = {
     "patchConfig": {"webhooks": {"timeout_s": 5}, "logging": {"level": "debug"}},
+    "checkConfig": {"webhooks": {"timeout_s": 5}},
 }
 """Of requests whose body has no schema of its own name, by operation."""
 

@@ -61,6 +61,35 @@ _TARGET: dict[str, Json] = {
 TECHNICIAN_MODELS: dict[str, Json] = {
     "CameraInspection": _INSPECTION,
     "MoveTarget": _TARGET,
+    "ConfigurationFields": {
+        "fields": [
+            {
+                "key": "webhooks.timeout_s",
+                "kind": "number",
+                "words": "Longest time of one attempt",
+                "optional": False,
+                "choices": [],
+                "least": 0,
+                "most": 60,
+                "changeable": True,
+            }
+        ]
+    },
+    "ConfigurationCheck": {
+        "troubles": [],
+        "differences": [{"key": "webhooks.timeout_s", "before": 10.0, "after": 5.0}],
+    },
+    "ConfigurationHistory": {
+        "versions": [
+            {
+                "number": 2,
+                "at": _NOW,
+                "by": "person: Anna",
+                "changes": {"webhooks": {"timeout_s": 5}},
+            },
+            {"number": 0, "at": None, "by": "", "changes": {}},
+        ]
+    },
     "ProtocolFrames": {
         "frames": [
             {

@@ -40,10 +40,12 @@ export class Refusal extends Error {
 }
 
 interface Call {
-  readonly method?: "GET" | "POST" | "PUT" | "DELETE";
+  readonly method?: "GET" | "POST" | "PUT" | "PATCH" | "DELETE";
   readonly body?: unknown;
   readonly headers?: Record<string, string>;
   readonly patienceMs?: number;
+  /** Hears the version of the answer, for a change that must not overwrite another. */
+  readonly onVersion?: (etag: string) => void;
 }
 
 /**
@@ -52,7 +54,7 @@ interface Call {
  * @throws Refusal when the server says no, or cannot be asked.
  */
 export async function call<Answer>(path: string, options: Call = {}): Promise<Answer> {
-  const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS } = options;
+  const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS, onVersion } = options;
   const request: RequestInit = { method, headers, signal: AbortSignal.timeout(patienceMs) };
   if (body !== undefined) {
     request.body = JSON.stringify(body);
@@ -67,6 +69,7 @@ export async function call<Answer>(path: string, options: Call = {}): Promise<An
     throw new Refusal(words.trouble.unreachable, false);
   }
   if (!response.ok) throw new Refusal(troubleIn(text), true);
+  onVersion?.(response.headers.get("ETag") ?? "");
   return (text === "" ? undefined : JSON.parse(text)) as Answer;
 }
 

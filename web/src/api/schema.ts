@@ -581,6 +581,86 @@ export interface paths {
         readonly patch: operations["patchConfig"];
         readonly trace?: never;
     };
+    readonly "/api/v1/config/check": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Rehearse a change of settings
+         * @description What a change would do, or what is wrong with which field. Nothing is changed.
+         */
+        readonly post: operations["checkConfig"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/fields": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what can be set
+         * @description Every setting: its kind, what it is for, its limits, and whether it needs a restart.
+         */
+        readonly get: operations["getConfigFields"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/versions": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read earlier settings
+         * @description Who changed what over the API, the newest first; the last one is the start.
+         */
+        readonly get: operations["listConfigVersions"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/versions/{number}/restore": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go back to earlier settings
+         * @description Let everything hold again that held after that change; this is a new version itself.
+         */
+        readonly post: operations["restoreConfig"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/events": {
         readonly parameters: {
             readonly query?: never;
@@ -1658,6 +1738,117 @@ export interface components {
                     readonly [key: string]: components["schemas"]["JsonValue"];
                 };
             };
+        };
+        /**
+         * ConfigurationCheck
+         * @description What a change would do. Nothing was changed.
+         */
+        readonly ConfigurationCheck: {
+            /** Differences */
+            readonly differences: readonly components["schemas"]["ConfigurationDifference"][];
+            /** Troubles */
+            readonly troubles: readonly components["schemas"]["ConfigurationTrouble"][];
+        };
+        /**
+         * ConfigurationDifference
+         * @description One setting that would be another; secrets are hidden.
+         */
+        readonly ConfigurationDifference: {
+            readonly after: components["schemas"]["JsonValue"];
+            readonly before: components["schemas"]["JsonValue"];
+            /** Key */
+            readonly key: string;
+        };
+        /**
+         * ConfigurationField
+         * @description One setting as a field of a form.
+         */
+        readonly ConfigurationField: {
+            /**
+             * Changeable
+             * @description At once and without a restart; else in the configuration file, and PlugPilot must be started again
+             */
+            readonly changeable: boolean;
+            /** Choices */
+            readonly choices: readonly string[];
+            /**
+             * Key
+             * @description Section and name, dotted
+             * @example webhooks.timeout_s
+             */
+            readonly key: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "number" | "integer" | "boolean" | "text" | "choice" | "other";
+            /** Least */
+            readonly least: number | null;
+            /** Most */
+            readonly most: number | null;
+            /**
+             * Optional
+             * @description It may be left empty
+             */
+            readonly optional: boolean;
+            /**
+             * Words
+             * @description What it is for
+             */
+            readonly words: string;
+        };
+        /**
+         * ConfigurationFields
+         * @description All settings, section by section.
+         */
+        readonly ConfigurationFields: {
+            /** Fields */
+            readonly fields: readonly components["schemas"]["ConfigurationField"][];
+        };
+        /**
+         * ConfigurationHistory
+         * @description Versions to which one can go back, the newest first.
+         */
+        readonly ConfigurationHistory: {
+            /** Versions */
+            readonly versions: readonly components["schemas"]["ConfigurationVersion"][];
+        };
+        /**
+         * ConfigurationTrouble
+         * @description What is wrong, and where.
+         */
+        readonly ConfigurationTrouble: {
+            /**
+             * Key
+             * @description Of the field; empty if it is about no one field
+             */
+            readonly key: string;
+            /** Sentence */
+            readonly sentence: string;
+        };
+        /**
+         * ConfigurationVersion
+         * @description What was changed over the API since the start, after one change.
+         */
+        readonly ConfigurationVersion: {
+            /** At */
+            readonly at: string | null;
+            /**
+             * By
+             * @description Who changed something
+             */
+            readonly by: string;
+            /** Changes */
+            readonly changes: {
+                readonly [key: string]: {
+                    readonly [key: string]: components["schemas"]["JsonValue"];
+                };
+            };
+            /**
+             * Number
+             * @description 0 is what PlugPilot was started with
+             */
+            readonly number: number;
         };
         /**
          * ControlHolder
@@ -5822,6 +6013,201 @@ export interface operations {
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
             readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly checkConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "webhooks": {
+                 *         "timeout_s": 5
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": {
+                    readonly [key: string]: {
+                        readonly [key: string]: components["schemas"]["JsonValue"];
+                    };
+                };
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "differences": [
+                     *         {
+                     *           "after": 5,
+                     *           "before": 10,
+                     *           "key": "webhooks.timeout_s"
+                     *         }
+                     *       ],
+                     *       "troubles": []
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationCheck"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getConfigFields: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "fields": [
+                     *         {
+                     *           "changeable": true,
+                     *           "choices": [],
+                     *           "key": "webhooks.timeout_s",
+                     *           "kind": "number",
+                     *           "least": 0,
+                     *           "most": 60,
+                     *           "optional": false,
+                     *           "words": "Longest time of one attempt"
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationFields"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listConfigVersions: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "versions": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "by": "person: Anna",
+                     *           "changes": {
+                     *             "webhooks": {
+                     *               "timeout_s": 5
+                     *             }
+                     *           },
+                     *           "number": 2
+                     *         },
+                     *         {
+                     *           "at": null,
+                     *           "by": "",
+                     *           "changes": {},
+                     *           "number": 0
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationHistory"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly restoreConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
+            readonly path: {
+                readonly number: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "changeable": [
+                     *         "charge_point",
+                     *         "logging",
+                     *         "webhooks"
+                     *       ],
+                     *       "settings": {
+                     *         "logging": {
+                     *           "level": "info"
+                     *         },
+                     *         "server": {
+                     *           "host": "127.0.0.1",
+                     *           "port": 8000
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Configuration"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 412: components["responses"]["Problem412"];
             readonly 422: components["responses"]["Problem422"];
             readonly 428: components["responses"]["Problem428"];
             readonly 503: components["responses"]["Problem503"];

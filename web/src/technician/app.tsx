@@ -1,6 +1,7 @@
 import { QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { CameraPanel } from "./camera/panel";
+import { ConfigPanel } from "./config/panel";
 import { ConsolePanel } from "./console/panel";
 import { JogPad } from "./jog/pad";
 import { Plots } from "./readings/plots";
@@ -29,6 +30,7 @@ export function Technician() {
           <Plots />
           <CameraPanel />
           <ConsolePanel />
+          <ConfigPanel />
         </div>
       </main>
       <Stops />

@@ -15,6 +15,7 @@ import "./parts/panel.css";
 import "./camera/camera.css";
 import "./target/target.css";
 import "./console/console.css";
+import "./config/config.css";
 import { Technician } from "./app";
 
 const root = document.getElementById("app");

@@ -70,12 +70,16 @@ export async function forget(): Promise<void> {
  * letting go, the way that is left is asked for.
  */
 export function followTarget(): () => void {
+  let plannedFrom = "";
   return effect(() => {
     const robot = store.live.value?.robot;
     const chosen = target.value;
     if (robot === undefined || chosen === null || robot.mode !== "ready") return;
     if (isThere(robot, chosen)) arrive();
     else if (grip.held.value === null && !choosing.value && hasLeft(robot, chosen)) {
+      const from = JSON.stringify(robot.commanded?.joints);
+      if (from === plannedFrom) return; // once from each place, whatever the answer says
+      plannedFrom = from;
       void choose({ x_mm: chosen.tip.x_mm, y_mm: chosen.tip.y_mm });
     }
   });
