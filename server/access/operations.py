@@ -88,6 +88,8 @@ OPERATIONS: Mapping[str, Need] = {
     "checkConfig": Need.ADMIN,
     "listConfigVersions": Need.ADMIN,
     "restoreConfig": Need.ADMIN,
+    "getVersions": Need.READ,
+    "getDiagnostics": Need.ADMIN,
     # oneself, and getting in
     "getSession": Need.ANYONE,
     "pairDevice": Need.ANYONE,

@@ -90,6 +90,15 @@ TECHNICIAN_MODELS: dict[str, Json] = {
             {"number": 0, "at": None, "by": "", "changes": {}},
         ]
     },
+    "Versions": {
+        "software": "0.1.0",
+        "python": "3.11.9",
+        "system": "Linux 6.6.31 aarch64",
+        "libraries": [{"name": "fastapi", "version": "0.115.6"}],
+        "board": "Me Auriga",
+        "firmware": "1.0.0",
+        "protocol_hash": "13345a36",
+    },
     "ProtocolFrames": {
         "frames": [
             {

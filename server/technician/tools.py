@@ -13,6 +13,7 @@ from server.control.targets import Targets
 from server.storage.vehicles import VehicleStore
 from server.technician.camera_inspection import CameraInspector
 from server.technician.console import ProtocolConsole
+from server.technician.recent_log import RecentLog
 from server.timing import Calendar
 
 INSPECTION_PERIOD_S = 0.2
@@ -29,16 +30,19 @@ class TechnicianTools:
         camera: Looks closely at the camera's pictures.
         targets: Where somebody wants the robot to go.
         console: What goes over the link to the motion board.
+        log: The newest lines of the log.
     """
 
     camera: CameraInspector
     targets: Targets
     console: ProtocolConsole
+    log: RecentLog
 
     async def close(self) -> None:
         """End what is at work."""
         await self.camera.close()
         self.console.close()
+        self.log.stop()
 
 
 def make_tools(
@@ -51,7 +55,7 @@ def make_tools(
     supervisor: Supervisor,
     jog: Jog,
 ) -> TechnicianTools:
-    """Make all tools; none is at work before somebody asks for it.
+    """Make all tools; none but the log is at work before somebody asks for it.
 
     Args:
         settings: The whole configuration.
@@ -63,6 +67,8 @@ def make_tools(
         jog: Moves it for as long as somebody holds a button.
     """
     speed = settings.clock_speed
+    log = RecentLog()
+    log.start()
     return TechnicianTools(
         camera=CameraInspector(
             camera,
@@ -76,4 +82,5 @@ def make_tools(
         console=ProtocolConsole(
             robot, calendar, wait_s=CONSOLE_WAIT_S * speed, patience_s=CONSOLE_PATIENCE_S * speed
         ),
+        log=log,
     )

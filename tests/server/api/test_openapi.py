@@ -24,6 +24,7 @@ STREAMS = {
     "multipart/x-mixed-replace",
     "application/octet-stream",
     "application/x-ndjson",
+    "application/zip",
 }
 
 

@@ -661,6 +661,26 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/diagnostics.zip": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Download the diagnostics
+         * @description One file with state, settings, versions, log, audit trail, jobs and the link; no secrets.
+         */
+        readonly get: operations["getDiagnostics"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/events": {
         readonly parameters: {
             readonly query?: never;
@@ -1291,6 +1311,26 @@ export interface paths {
          * @description Its jobs stay in the history.
          */
         readonly delete: operations["deleteVehicle"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/versions": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what runs here
+         * @description Software, libraries, firmware, protocol.
+         */
+        readonly get: operations["getVersions"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
         readonly patch?: never;
@@ -3032,6 +3072,16 @@ export interface components {
             readonly type: "leave";
         };
         /**
+         * LibraryVersion
+         * @description One library that this software is built on.
+         */
+        readonly LibraryVersion: {
+            /** Name */
+            readonly name: string;
+            /** Version */
+            readonly version: string;
+        };
+        /**
          * Live
          * @description Every live section.
          */
@@ -4076,6 +4126,32 @@ export interface components {
              *     }
              */
             readonly socket?: components["schemas"]["SocketOffset"];
+        };
+        /**
+         * Versions
+         * @description Software, firmware and the protocol between them.
+         */
+        readonly Versions: {
+            /**
+             * Board
+             * @description Null before the board has introduced itself
+             */
+            readonly board: string | null;
+            /** Firmware */
+            readonly firmware: string | null;
+            /** Libraries */
+            readonly libraries: readonly components["schemas"]["LibraryVersion"][];
+            /**
+             * Protocol Hash
+             * @description Of the protocol that this software speaks; a board whose firmware was built for another one is refused
+             */
+            readonly protocol_hash: string;
+            /** Python */
+            readonly python: string;
+            /** Software */
+            readonly software: string;
+            /** System */
+            readonly system: string;
         };
         /**
          * WayLeft
@@ -6214,6 +6290,30 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly getDiagnostics: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description A zip file */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/zip": string;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly listEvents: {
         readonly parameters: {
             readonly query?: {
@@ -8167,6 +8267,46 @@ export interface operations {
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
             readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getVersions: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "board": "Me Auriga",
+                     *       "firmware": "1.0.0",
+                     *       "libraries": [
+                     *         {
+                     *           "name": "fastapi",
+                     *           "version": "0.115.6"
+                     *         }
+                     *       ],
+                     *       "protocol_hash": "13345a36",
+                     *       "python": "3.11.9",
+                     *       "software": "0.1.0",
+                     *       "system": "Linux 6.6.31 aarch64"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Versions"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
