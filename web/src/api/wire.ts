@@ -40,6 +40,7 @@ export type ConfigurationField = Schemas["ConfigurationField"];
 export type ConfigurationFields = Schemas["ConfigurationFields"];
 export type ConfigurationHistory = Schemas["ConfigurationHistory"];
 export type ConfigurationVersion = Schemas["ConfigurationVersion"];
+export type Versions = Schemas["Versions"];
 export type ProtocolFrame = Schemas["ProtocolFrame"];
 export type ProtocolFrames = Schemas["ProtocolFrames"];
 export type MoveTarget = Schemas["MoveTarget"];

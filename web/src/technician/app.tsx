@@ -3,6 +3,7 @@ import { Header } from "@/parts/header";
 import { CameraPanel } from "./camera/panel";
 import { ConfigPanel } from "./config/panel";
 import { ConsolePanel } from "./console/panel";
+import { DiagnosticsPanel } from "./diagnostics/panel";
 import { JogPad } from "./jog/pad";
 import { Plots } from "./readings/plots";
 import { Values } from "./readings/values";
@@ -31,6 +32,7 @@ export function Technician() {
           <CameraPanel />
           <ConsolePanel />
           <ConfigPanel />
+          <DiagnosticsPanel />
         </div>
       </main>
       <Stops />

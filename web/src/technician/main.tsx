@@ -16,6 +16,7 @@ import "./camera/camera.css";
 import "./target/target.css";
 import "./console/console.css";
 import "./config/config.css";
+import "./diagnostics/diagnostics.css";
 import { Technician } from "./app";
 
 const root = document.getElementById("app");
