@@ -26,11 +26,11 @@ export function Technician() {
         <div class="column">
           <JogPad />
           <TargetPanel />
+          <ConsolePanel />
         </div>
         <div class="column">
           <Plots />
           <CameraPanel />
-          <ConsolePanel />
           <ConfigPanel />
           <DiagnosticsPanel />
         </div>
