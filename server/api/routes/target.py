@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from fastapi import APIRouter
+from fastapi import APIRouter, Response
 
 from server.api.dependencies import ServicesDep
 from server.api.problems import problem_responses
@@ -36,9 +36,10 @@ async def choose(request: TargetRequest, services: ServicesDep) -> MoveTarget:
 
 
 @router.delete("", status_code=204, operation_id="forgetTarget", summary="Forget the place")
-async def forget(services: ServicesDep) -> None:
+async def forget(services: ServicesDep) -> Response:
     """Nobody wants to go there any more."""
     services.technician.targets.forget()
+    return Response(status_code=204)
 
 
 def _shown(geometry: RobotGeometry, target: Target) -> MoveTarget:
