@@ -46,6 +46,7 @@ from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.plug import StoredPlug
 from server.storage.vehicles import VehicleStore
+from server.technician.tools import make_tools
 from server.timing import Calendar
 from twin.scene import TwinHost
 
@@ -176,6 +177,17 @@ async def running(
         )
         recorder.start()
         stack.push_async_callback(recorder.close)
+        jog = Jog(supervisor, DEAD_MAN_S * speed)
+        technician = make_tools(
+            settings,
+            calendar,
+            robot=devices.robot,
+            camera=devices.camera,
+            vehicles=vehicles,
+            supervisor=supervisor,
+            jog=jog,
+        )
+        stack.push_async_callback(technician.close)
         services = Services(
             settings=settings,
             calendar=calendar,
@@ -185,7 +197,7 @@ async def running(
             jobs=jobs,
             vehicles=vehicles,
             supervisor=supervisor,
-            jog=Jog(supervisor, DEAD_MAN_S * speed),
+            jog=jog,
             runner=runner,
             station=station,
             camera=camera,
@@ -201,6 +213,7 @@ async def running(
             twin=twin,
             garage=devices.garage,
             simulated_car=_simulated_car(devices, settings),
+            technician=technician,
         )
         show(services)
         integrations.tell_events(services)

@@ -25,6 +25,7 @@ from server.simulated_car import SimulatedCar
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
+from server.technician.tools import TechnicianTools
 from server.timing import Calendar
 from server.webhooks.service import Webhooks
 from twin.scene import TwinHost
@@ -59,6 +60,7 @@ class Services:
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
         simulated_car: The car of the simulated garage; None before a real camera.
+        technician: What the technician's page asks for.
     """
 
     settings: Settings
@@ -85,3 +87,4 @@ class Services:
     twin: TwinHost | None
     garage: SimulatedGarage | None
     simulated_car: SimulatedCar | None
+    technician: TechnicianTools

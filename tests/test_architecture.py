@@ -41,6 +41,7 @@ ALLOWED: dict[str, set[str]] = {
 
 WIRING = {
     "server.services",
+    "server.diagnostics",
     "server.composition",
     "server.serving",
     "server.simulation",
@@ -73,8 +74,9 @@ FORBIDDEN: dict[str, set[str]] = {
     "server.webhooks": {"server.api", "server.jobs", "server.control", *WIRING, "drivers"},
     "server.charge_point": {"server.api", *WIRING, "drivers.simulator"},
     "server.adjusting": {"server.api", "server.jobs", "server.control", *WIRING, "drivers"},
+    "server.technician": {"server.api", *WIRING, "drivers.simulator"},
     "server.live": {"server.api.app", *(WIRING - {"server.services"}), "drivers.simulator"},
-    "server.api": {*(WIRING - {"server.services"}), "drivers.simulator"},
+    "server.api": {*(WIRING - {"server.services", "server.diagnostics"}), "drivers.simulator"},
     "server.services": {"server.cli", "server.serving", "server.simulation", "server.composition"},
     "server.composition": {"server.cli", "server.serving", "server.simulation"},
     "server.serving": {"server.cli", "server.simulation"},

@@ -41,6 +41,9 @@ OPERATIONS: Mapping[str, Need] = {
     "getRobotReach": Need.READ,
     "jogRobot": Need.SERVICE,
     "confirmPlug": Need.OPERATE,
+    "readFrames": Need.SERVICE,
+    "chooseTarget": Need.SERVICE,
+    "forgetTarget": Need.SERVICE,
     # jobs
     "createJob": Need.OPERATE,
     "listJobs": Need.READ,
@@ -61,6 +64,8 @@ OPERATIONS: Mapping[str, Need] = {
     "getStation": Need.READ,
     "getCameraSnapshot": Need.READ,
     "streamCamera": Need.READ,
+    "inspectCamera": Need.READ,
+    "getInspectedPicture": Need.READ,
     # arriving cars
     "getGuidance": Need.READ,
     "getSimulatedCar": Need.READ,
@@ -82,6 +87,12 @@ OPERATIONS: Mapping[str, Need] = {
     "listWebhookDeliveries": Need.ADMIN,
     "getConfig": Need.ADMIN,
     "patchConfig": Need.ADMIN,
+    "getConfigFields": Need.ADMIN,
+    "checkConfig": Need.ADMIN,
+    "listConfigVersions": Need.ADMIN,
+    "restoreConfig": Need.ADMIN,
+    "getVersions": Need.READ,
+    "getDiagnostics": Need.ADMIN,
     # oneself, and getting in
     "getSession": Need.ANYONE,
     "pairDevice": Need.ANYONE,
@@ -114,6 +125,7 @@ MESSAGES: Mapping[str, Need] = {
     "emergency_stop": Need.STOP,
     "jog": Need.SERVICE,
     "jog_step": Need.SERVICE,
+    "move_to": Need.SERVICE,
     "jog_end": Need.SERVICE,
     "resync": Need.READ,
 }

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
+from server.api.technician_examples import TECHNICIAN_MODELS
 
 Json = Any
 
@@ -79,6 +80,7 @@ _DELIVERY: dict[str, Json] = {
 
 MODELS: dict[str, Json] = {
     **ACCESS_MODELS,
+    **TECHNICIAN_MODELS,
     "ChargePoint": {
         "cp_state": "C",
         "enabled": True,
@@ -231,6 +233,7 @@ MODELS: dict[str, Json] = {
 
 BODIES: dict[str, Json] = {
     "patchConfig": {"webhooks": {"timeout_s": 5}, "logging": {"level": "debug"}},
+    "checkConfig": {"webhooks": {"timeout_s": 5}},
 }
 """Of requests whose body has no schema of its own name, by operation."""
 

@@ -19,6 +19,7 @@ ControlError
 ├── PlugNotSeenError             a person says it is in a car, the station sees none
 ├── MotionOutOfReachError        joint limit, workspace or singularity
 ├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
+├── TargetGoneError              nobody wants to go there any more, or not from here
 ├── ForceLimitError              the force along the insertion axis went over its limit
 │   └── ForceAboveBandError      it is more than the plug may meet at this depth
 ├── ForceBelowBandError          it is less: the plug is not in the socket
@@ -204,6 +205,14 @@ class ActuatorOverloadError(ControlError):
         "Choose a target further away from the rail, where the legs stand steeper, or let the "
         "cable hang from a hook. If the numbers are wrong, correct [loads] and [actuators]."
     )
+
+
+class TargetGoneError(ControlError):
+    """The place that was chosen is not the target any more."""
+
+    code = "target_gone"
+    title = "That way is not valid any more"
+    remedy = "Choose the place again, and look at the new way."
 
 
 class ForceLimitError(ControlError):

@@ -14,6 +14,7 @@ from drivers.robot import (
     FaultCode,
     RobotDriver,
     RobotDriverError,
+    RobotIdentity,
     RobotState,
     StopCategory,
 )
@@ -136,6 +137,11 @@ class Supervisor(Mover):
     def name(self) -> str:
         """Name of the robot at the other end, as far as known."""
         return self._link.identity.name if self._link.identity else "not connected"
+
+    @property
+    def identity(self) -> RobotIdentity | None:
+        """How the robot at the other end has introduced itself; None before it has."""
+        return self._link.identity
 
     @property
     def link_trouble(self) -> RobotDriverError | None:

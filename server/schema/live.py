@@ -141,6 +141,17 @@ class JogStepMessage(Wire):
     step: JogStep
 
 
+class MoveToMessage(Wire):
+    """Hold to follow the way to a target: send it every 100 ms while the button is held.
+
+    250 ms without one, ``jog_end``, or a closed connection stops the motion.
+    """
+
+    type: Literal["move_to"] = "move_to"
+    id: int | None = None
+    target_id: Annotated[str, Field(min_length=1, max_length=64)]
+
+
 class JogEndMessage(Wire):
     """The button was released."""
 
@@ -160,6 +171,7 @@ ClientMessage = Annotated[
     | EmergencyStopMessage
     | JogMessage
     | JogStepMessage
+    | MoveToMessage
     | JogEndMessage
     | ResyncMessage,
     Field(discriminator="type"),

@@ -41,10 +41,12 @@ export class Refusal extends Error {
 }
 
 interface Call {
-  readonly method?: "GET" | "POST" | "PUT" | "DELETE";
+  readonly method?: "GET" | "POST" | "PUT" | "PATCH" | "DELETE";
   readonly body?: unknown;
   readonly headers?: Record<string, string>;
   readonly patienceMs?: number;
+  /** Hears the version of the answer, for a change that must not overwrite another. */
+  readonly onVersion?: (etag: string) => void;
 }
 
 /**
@@ -53,7 +55,7 @@ interface Call {
  * @throws Refusal when the server says no, or cannot be asked.
  */
 export async function call<Answer>(path: string, options: Call = {}): Promise<Answer> {
-  const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS } = options;
+  const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS, onVersion } = options;
   const request: RequestInit = { method, headers, signal: AbortSignal.timeout(patienceMs) };
   if (body !== undefined) {
     request.body = JSON.stringify(body);
@@ -72,6 +74,7 @@ export async function call<Answer>(path: string, options: Call = {}): Promise<An
     await firstWords;
     throw new Refusal(troubleIn(text), true);
   }
+  onVersion?.(response.headers.get("ETag") ?? "");
   return (text === "" ? undefined : JSON.parse(text)) as Answer;
 }
 

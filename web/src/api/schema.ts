@@ -386,6 +386,48 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/camera/inspection": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Look closely at a picture
+         * @description The newest picture with its label, pose and uncertainty; waits for one that is not known.
+         *
+         *     The camera is looked at for as long as somebody asks.
+         */
+        readonly get: operations["inspectCamera"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/camera/inspection/{sequence}.jpg": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read the picture that was looked at
+         * @description The picture of an inspection; only the newest few are kept.
+         */
+        readonly get: operations["getInspectedPicture"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/camera/snapshot.jpg": {
         readonly parameters: {
             readonly query?: never;
@@ -537,6 +579,106 @@ export interface paths {
          * @description Change settings that need no restart; they are kept, and win over the configuration file.
          */
         readonly patch: operations["patchConfig"];
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/check": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Rehearse a change of settings
+         * @description What a change would do, or what is wrong with which field. Nothing is changed.
+         */
+        readonly post: operations["checkConfig"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/fields": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what can be set
+         * @description Every setting: its kind, what it is for, its limits, and whether it needs a restart.
+         */
+        readonly get: operations["getConfigFields"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/versions": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read earlier settings
+         * @description Who changed what over the API, the newest first; the last one is the start.
+         */
+        readonly get: operations["listConfigVersions"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/versions/{number}/restore": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go back to earlier settings
+         * @description Let everything hold again that held after that change; this is a new version itself.
+         */
+        readonly post: operations["restoreConfig"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/diagnostics.zip": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Download the diagnostics
+         * @description One file with state, settings, versions, log, audit trail, jobs and the link; no secrets.
+         */
+        readonly get: operations["getDiagnostics"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
         readonly trace?: never;
     };
     readonly "/api/v1/events": {
@@ -916,6 +1058,28 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/frames": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Follow the link to the board
+         * @description What went to and from the motion board since the last look; waits a second for news.
+         *
+         *     Nothing is kept before somebody asks, nor when nobody has asked for some seconds.
+         */
+        readonly get: operations["readFrames"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot/home": {
         readonly parameters: {
             readonly query?: never;
@@ -1039,6 +1203,30 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/target": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Plan a way to a place
+         * @description Plan and check the straight way of the plug's tip to a place. Nothing moves.
+         */
+        readonly post: operations["chooseTarget"];
+        /**
+         * Forget the place
+         * @description Nobody wants to go there any more.
+         */
+        readonly delete: operations["forgetTarget"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/simulation/car": {
         readonly parameters: {
             readonly query?: never;
@@ -1126,6 +1314,26 @@ export interface paths {
          * @description Its jobs stay in the history.
          */
         readonly delete: operations["deleteVehicle"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/versions": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what runs here
+         * @description Software, libraries, firmware, protocol.
+         */
+        readonly get: operations["getVersions"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
         readonly patch?: never;
@@ -1298,6 +1506,34 @@ export interface components {
             readonly screen: boolean;
         };
         /**
+         * ActuatorForce
+         * @description What one actuator carries at the worst place of the way.
+         */
+        readonly ActuatorForce: {
+            /**
+             * At S
+             * @description After the start
+             */
+            readonly at_s: number;
+            /**
+             * Force N
+             * @description Positive along growing rho
+             */
+            readonly force_n: number;
+            /**
+             * Joint
+             * @enum {string}
+             */
+            readonly joint: "rho1" | "rho2" | "rho3";
+            /** Limit N */
+            readonly limit_n: number;
+            /**
+             * Share
+             * @description Of the limit, 1 on it
+             */
+            readonly share: number;
+        };
+        /**
          * Attempt
          * @description One attempt to deliver.
          */
@@ -1380,6 +1616,64 @@ export interface components {
             readonly type: "brake";
         };
         /**
+         * CameraInspection
+         * @description One picture of the camera, looked at closely.
+         */
+        readonly CameraInspection: {
+            /**
+             * Age S
+             * @description From the middle of the exposure to the end of the look
+             */
+            readonly age_s: number;
+            /**
+             * Bright Share
+             * @description Pixels that are clipped
+             */
+            readonly bright_share: number;
+            /**
+             * Brightness
+             * @description Mean grey value
+             */
+            readonly brightness: number;
+            /**
+             * Dark Share
+             * @description Pixels without any light
+             */
+            readonly dark_share: number;
+            /**
+             * Exposure Ms
+             * @description Null when the camera does not tell
+             */
+            readonly exposure_ms: number | null;
+            /**
+             * Frames Per S
+             * @description Of the sensor; null after the first picture
+             */
+            readonly frames_per_s: number | null;
+            /** Height Px */
+            readonly height_px: number;
+            readonly label: components["schemas"]["SeenLabel"] | null;
+            /**
+             * Sequence
+             * @description Grows; names the picture
+             */
+            readonly sequence: number;
+            /**
+             * Taken At
+             * Format: date-time
+             * @description Middle of the exposure
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly taken_at: string;
+            /** @description Why there is no label, or no pose that deserves trust */
+            readonly trouble: components["schemas"]["Problem"] | null;
+            /**
+             * Width Px
+             * @description Of the camera; the picture itself may be sent smaller
+             */
+            readonly width_px: number;
+        };
+        /**
          * ChargePoint
          * @description One charger. A car is connected (B) as soon as the robot could plug it in.
          */
@@ -1443,7 +1737,7 @@ export interface components {
              */
             readonly updated_at: string | null;
         };
-        readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
+        readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["MoveToMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
          * CommandedMotion
          * @description What the board was told.
@@ -1487,6 +1781,117 @@ export interface components {
                     readonly [key: string]: components["schemas"]["JsonValue"];
                 };
             };
+        };
+        /**
+         * ConfigurationCheck
+         * @description What a change would do. Nothing was changed.
+         */
+        readonly ConfigurationCheck: {
+            /** Differences */
+            readonly differences: readonly components["schemas"]["ConfigurationDifference"][];
+            /** Troubles */
+            readonly troubles: readonly components["schemas"]["ConfigurationTrouble"][];
+        };
+        /**
+         * ConfigurationDifference
+         * @description One setting that would be another; secrets are hidden.
+         */
+        readonly ConfigurationDifference: {
+            readonly after: components["schemas"]["JsonValue"];
+            readonly before: components["schemas"]["JsonValue"];
+            /** Key */
+            readonly key: string;
+        };
+        /**
+         * ConfigurationField
+         * @description One setting as a field of a form.
+         */
+        readonly ConfigurationField: {
+            /**
+             * Changeable
+             * @description At once and without a restart; else in the configuration file, and PlugPilot must be started again
+             */
+            readonly changeable: boolean;
+            /** Choices */
+            readonly choices: readonly string[];
+            /**
+             * Key
+             * @description Section and name, dotted
+             * @example webhooks.timeout_s
+             */
+            readonly key: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "number" | "integer" | "boolean" | "text" | "choice" | "other";
+            /** Least */
+            readonly least: number | null;
+            /** Most */
+            readonly most: number | null;
+            /**
+             * Optional
+             * @description It may be left empty
+             */
+            readonly optional: boolean;
+            /**
+             * Words
+             * @description What it is for
+             */
+            readonly words: string;
+        };
+        /**
+         * ConfigurationFields
+         * @description All settings, section by section.
+         */
+        readonly ConfigurationFields: {
+            /** Fields */
+            readonly fields: readonly components["schemas"]["ConfigurationField"][];
+        };
+        /**
+         * ConfigurationHistory
+         * @description Versions to which one can go back, the newest first.
+         */
+        readonly ConfigurationHistory: {
+            /** Versions */
+            readonly versions: readonly components["schemas"]["ConfigurationVersion"][];
+        };
+        /**
+         * ConfigurationTrouble
+         * @description What is wrong, and where.
+         */
+        readonly ConfigurationTrouble: {
+            /**
+             * Key
+             * @description Of the field; empty if it is about no one field
+             */
+            readonly key: string;
+            /** Sentence */
+            readonly sentence: string;
+        };
+        /**
+         * ConfigurationVersion
+         * @description What was changed over the API since the start, after one change.
+         */
+        readonly ConfigurationVersion: {
+            /** At */
+            readonly at: string | null;
+            /**
+             * By
+             * @description Who changed something
+             */
+            readonly by: string;
+            /** Changes */
+            readonly changes: {
+                readonly [key: string]: {
+                    readonly [key: string]: components["schemas"]["JsonValue"];
+                };
+            };
+            /**
+             * Number
+             * @description 0 is what PlugPilot was started with
+             */
+            readonly number: number;
         };
         /**
          * ControlHolder
@@ -1817,6 +2222,89 @@ export interface components {
          */
         readonly FaultBegan: {
             readonly fault: components["schemas"]["RobotFault"];
+        };
+        /**
+         * FittedPose
+         * @description The pose of the label, as the camera sees it, and how good it is.
+         */
+        readonly FittedPose: {
+            /**
+             * Axes Px
+             * @description From the centre: the label's right, its bottom, and out of the car; half a label long
+             */
+            readonly axes_px: readonly [
+                readonly [
+                    number,
+                    number
+                ],
+                readonly [
+                    number,
+                    number
+                ],
+                readonly [
+                    number,
+                    number
+                ]
+            ];
+            /** @description Uncertainty of the label's centre in the picture */
+            readonly ellipse: components["schemas"]["PixelEllipse"];
+            /**
+             * Inlier Share
+             * @description Measured edges that agree with the model
+             */
+            readonly inlier_share: number;
+            /**
+             * Measurements
+             * @description Edges measured; 4 for corners
+             */
+            readonly measurements: number;
+            /**
+             * Position Mm
+             * @description Label centre in the camera frame: right, down, ahead
+             */
+            readonly position_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Position Sigma Mm
+             * @description Standard deviations of the position
+             */
+            readonly position_sigma_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Residual Px
+             * @description Root mean square distance of edges and model
+             */
+            readonly residual_px: number;
+            /**
+             * Source
+             * @description All module edges; or, too coarse to move by, the four corners
+             * @enum {string}
+             */
+            readonly source: "edges" | "corners";
+            /**
+             * Turn Deg
+             * @description Rotation vector of T_camera_label
+             */
+            readonly turn_deg: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Turn Sigma Deg
+             * @description Standard deviations about the camera's axes
+             */
+            readonly turn_sigma_deg: readonly [
+                number,
+                number,
+                number
+            ];
         };
         /**
          * Guidance
@@ -2608,6 +3096,16 @@ export interface components {
             readonly type: "leave";
         };
         /**
+         * LibraryVersion
+         * @description One library that this software is built on.
+         */
+        readonly LibraryVersion: {
+            /** Name */
+            readonly name: string;
+            /** Version */
+            readonly version: string;
+        };
+        /**
          * Live
          * @description Every live section.
          */
@@ -2665,6 +3163,51 @@ export interface components {
             readonly joints: components["schemas"]["Joints"];
             /** @description Null while the robot is not homed */
             readonly tip: components["schemas"]["Tip"] | null;
+        };
+        /**
+         * MoveTarget
+         * @description The way there, checked along its whole length. Nothing has moved.
+         *
+         *     To go there send ``move_to`` with its id on the WebSocket for as long as a button is held. It
+         *     is valid until the robot moves otherwise, or another target is chosen.
+         */
+        readonly MoveTarget: {
+            /** Distance Mm */
+            readonly distance_mm: number;
+            /** Duration S */
+            readonly duration_s: number;
+            /** Forces */
+            readonly forces: readonly components["schemas"]["ActuatorForce"][];
+            /** Id */
+            readonly id: string;
+            /** @description Of the robot there */
+            readonly joints: components["schemas"]["Joints"];
+            readonly tip: components["schemas"]["Tip"];
+            /**
+             * Way
+             * @description Of the plug's tip, evenly in time
+             */
+            readonly way: readonly components["schemas"]["Tip"][];
+        };
+        /**
+         * MoveToMessage
+         * @description Hold to follow the way to a target: send it every 100 ms while the button is held.
+         *
+         *     250 ms without one, ``jog_end``, or a closed connection stops the motion.
+         */
+        readonly MoveToMessage: {
+            /**
+             * Id
+             * @default null
+             */
+            readonly id?: number | null;
+            /** Target Id */
+            readonly target_id: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "move_to";
         };
         /**
          * Need
@@ -2912,6 +3455,27 @@ export interface components {
             readonly type: "ping";
         };
         /**
+         * PixelEllipse
+         * @description One standard deviation of a place in the picture.
+         */
+        readonly PixelEllipse: {
+            /**
+             * Angle Rad
+             * @description From the picture's x axis to the long axis, towards y
+             */
+            readonly angle_rad: number;
+            /**
+             * Major Px
+             * @description Long half axis; times 2.4477 it holds 95 %
+             */
+            readonly major_px: number;
+            /**
+             * Minor Px
+             * @description Short half axis
+             */
+            readonly minor_px: number;
+        };
+        /**
          * Playback
          * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
          */
@@ -3038,6 +3602,71 @@ export interface components {
              * @example urn:plugpilot:problem:control_busy
              */
             readonly type: string;
+        };
+        /**
+         * ProtocolFrame
+         * @description One message between host and board.
+         */
+        readonly ProtocolFrame: {
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Direction
+             * @enum {string}
+             */
+            readonly direction: "to_board" | "from_board";
+            /**
+             * Error
+             * @description It tells of something that went wrong
+             */
+            readonly error: boolean;
+            /**
+             * Kind
+             * @example Telemetry
+             */
+            readonly kind: string;
+            /**
+             * Number
+             * @description Grows by one for each, for as long as somebody looks
+             */
+            readonly number: number;
+            /**
+             * Size Bytes
+             * @description On the wire; null where there is none
+             */
+            readonly size_bytes: number | null;
+            /**
+             * Words
+             * @description Its contents
+             */
+            readonly words: string;
+        };
+        /**
+         * ProtocolFrames
+         * @description What has passed since the last look, oldest first.
+         */
+        readonly ProtocolFrames: {
+            /**
+             * Available
+             * @description False with a driver that cannot tell
+             */
+            readonly available: boolean;
+            /** Frames */
+            readonly frames: readonly components["schemas"]["ProtocolFrame"][];
+            /**
+             * Lost
+             * @description Frames that were forgotten before they could be read
+             */
+            readonly lost: number;
+            /**
+             * Newest
+             * @description To be sent as ``after`` next time
+             */
+            readonly newest: number;
         };
         /**
          * Quantity
@@ -3195,6 +3824,34 @@ export interface components {
          * @enum {string}
          */
         readonly Scope: "read" | "operate" | "charge-point" | "service" | "admin";
+        /**
+         * SeenLabel
+         * @description A label that was read in the picture.
+         */
+        readonly SeenLabel: {
+            /** Centre Px */
+            readonly centre_px: readonly [
+                number,
+                number
+            ];
+            /**
+             * Outline Px
+             * @description Its border, in order, as the lens bends it
+             */
+            readonly outline_px: readonly (readonly [
+                number,
+                number
+            ])[];
+            /** Payload */
+            readonly payload: string;
+            /** @description Null when its size is unknown or nothing fits */
+            readonly pose: components["schemas"]["FittedPose"] | null;
+            /**
+             * Vehicle Id
+             * @description Whose label it is; null if nobody's
+             */
+            readonly vehicle_id: string | null;
+        };
         readonly ServerMessage: components["schemas"]["SnapshotMessage"] | components["schemas"]["DeltaMessage"] | components["schemas"]["ReplyMessage"];
         /**
          * Service
@@ -3397,6 +4054,21 @@ export interface components {
             readonly type: "stop";
         };
         /**
+         * TargetRequest
+         * @description Where the plug's tip shall be; how far it is out stays as it is.
+         */
+        readonly TargetRequest: {
+            /**
+             * Speed Mm S
+             * @default 10
+             */
+            readonly speed_mm_s?: number;
+            /** X Mm */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
+        /**
          * Tip
          * @description Plug tip in the base frame: x along the rail, y up, z towards the car [mm].
          */
@@ -3504,6 +4176,32 @@ export interface components {
              *     }
              */
             readonly socket?: components["schemas"]["SocketOffset"];
+        };
+        /**
+         * Versions
+         * @description Software, firmware and the protocol between them.
+         */
+        readonly Versions: {
+            /**
+             * Board
+             * @description Null before the board has introduced itself
+             */
+            readonly board: string | null;
+            /** Firmware */
+            readonly firmware: string | null;
+            /** Libraries */
+            readonly libraries: readonly components["schemas"]["LibraryVersion"][];
+            /**
+             * Protocol Hash
+             * @description Of the protocol that this software speaks; a board whose firmware was built for another one is refused
+             */
+            readonly protocol_hash: string;
+            /** Python */
+            readonly python: string;
+            /** Software */
+            readonly software: string;
+            /** System */
+            readonly system: string;
         };
         /**
          * WayLeft
@@ -4935,6 +5633,148 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly inspectCamera: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description Number of the one that is known already */
+                readonly after?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "age_s": 0.0871,
+                     *       "bright_share": 0.0004,
+                     *       "brightness": 108.4,
+                     *       "dark_share": 0.0021,
+                     *       "exposure_ms": 8,
+                     *       "frames_per_s": 29.97,
+                     *       "height_px": 1232,
+                     *       "label": {
+                     *         "centre_px": [
+                     *           735.61,
+                     *           514.07
+                     *         ],
+                     *         "outline_px": [
+                     *           [
+                     *             612.4,
+                     *             388.1
+                     *           ],
+                     *           [
+                     *             861.9,
+                     *             391.6
+                     *           ],
+                     *           [
+                     *             858.2,
+                     *             640.7
+                     *           ],
+                     *           [
+                     *             609.8,
+                     *             636
+                     *           ]
+                     *         ],
+                     *         "payload": "PP2:zoe:4NG43RRFJW",
+                     *         "pose": {
+                     *           "axes_px": [
+                     *             [
+                     *               860.2,
+                     *               516.2
+                     *             ],
+                     *             [
+                     *               733.9,
+                     *               638.4
+                     *             ],
+                     *             [
+                     *               742,
+                     *               509.3
+                     *             ]
+                     *           ],
+                     *           "ellipse": {
+                     *             "angle_rad": 0.4121,
+                     *             "major_px": 0.013312,
+                     *             "minor_px": 0.012204
+                     *           },
+                     *           "inlier_share": 0.9781,
+                     *           "measurements": 1264,
+                     *           "position_mm": [
+                     *             -14.231,
+                     *             7.9,
+                     *             318.442
+                     *           ],
+                     *           "position_sigma_mm": [
+                     *             0.00412,
+                     *             0.00398,
+                     *             0.02103
+                     *           ],
+                     *           "residual_px": 0.0814,
+                     *           "source": "edges",
+                     *           "turn_deg": [
+                     *             1.204,
+                     *             -0.871,
+                     *             0.402
+                     *           ],
+                     *           "turn_sigma_deg": [
+                     *             0.02113,
+                     *             0.01987,
+                     *             0.00304
+                     *           ]
+                     *         },
+                     *         "vehicle_id": "zoe"
+                     *       },
+                     *       "sequence": 42,
+                     *       "taken_at": "2026-03-01T18:04:05.120Z",
+                     *       "trouble": null,
+                     *       "width_px": 1640
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CameraInspection"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getInspectedPicture: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly sequence: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The picture */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "image/jpeg": unknown;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getCameraSnapshot: {
         readonly parameters: {
             readonly query?: never;
@@ -5301,6 +6141,225 @@ export interface operations {
             readonly 413: components["responses"]["Problem413"];
             readonly 422: components["responses"]["Problem422"];
             readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly checkConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "webhooks": {
+                 *         "timeout_s": 5
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": {
+                    readonly [key: string]: {
+                        readonly [key: string]: components["schemas"]["JsonValue"];
+                    };
+                };
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "differences": [
+                     *         {
+                     *           "after": 5,
+                     *           "before": 10,
+                     *           "key": "webhooks.timeout_s"
+                     *         }
+                     *       ],
+                     *       "troubles": []
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationCheck"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getConfigFields: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "fields": [
+                     *         {
+                     *           "changeable": true,
+                     *           "choices": [],
+                     *           "key": "webhooks.timeout_s",
+                     *           "kind": "number",
+                     *           "least": 0,
+                     *           "most": 60,
+                     *           "optional": false,
+                     *           "words": "Longest time of one attempt"
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationFields"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listConfigVersions: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "versions": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "by": "person: Anna",
+                     *           "changes": {
+                     *             "webhooks": {
+                     *               "timeout_s": 5
+                     *             }
+                     *           },
+                     *           "number": 2
+                     *         },
+                     *         {
+                     *           "at": null,
+                     *           "by": "",
+                     *           "changes": {},
+                     *           "number": 0
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationHistory"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly restoreConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
+            readonly path: {
+                readonly number: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "changeable": [
+                     *         "charge_point",
+                     *         "logging",
+                     *         "webhooks"
+                     *       ],
+                     *       "settings": {
+                     *         "logging": {
+                     *           "level": "info"
+                     *         },
+                     *         "server": {
+                     *           "host": "127.0.0.1",
+                     *           "port": 8000
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Configuration"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getDiagnostics: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description A zip file */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/zip": string;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -6349,6 +7408,62 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly readFrames: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description ``newest`` of the last answer */
+                readonly after?: number;
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "available": true,
+                     *       "frames": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "direction": "to_board",
+                     *           "error": false,
+                     *           "kind": "Heartbeat",
+                     *           "number": 1041,
+                     *           "size_bytes": 8,
+                     *           "words": "seq=0 ack=0"
+                     *         },
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "direction": "from_board",
+                     *           "error": true,
+                     *           "kind": "Event",
+                     *           "number": 1042,
+                     *           "size_bytes": 16,
+                     *           "words": "seq=3 ack=18 kind=REFUSED code=8 seq=17 detail=0 tick=812034"
+                     *         }
+                     *       ],
+                     *       "lost": 0,
+                     *       "newest": 1042
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ProtocolFrames"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly homeRobot: {
         readonly parameters: {
             readonly query?: never;
@@ -6743,6 +7858,125 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly chooseTarget: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "speed_mm_s": 10,
+                 *       "x_mm": 700,
+                 *       "y_mm": 360
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["TargetRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "distance_mm": 87.641,
+                     *       "duration_s": 9.014,
+                     *       "forces": [
+                     *         {
+                     *           "at_s": 9.014,
+                     *           "force_n": 61.2,
+                     *           "joint": "rho1",
+                     *           "limit_n": 150,
+                     *           "share": 0.408
+                     *         },
+                     *         {
+                     *           "at_s": 0,
+                     *           "force_n": -58.7,
+                     *           "joint": "rho2",
+                     *           "limit_n": 150,
+                     *           "share": 0.3913
+                     *         },
+                     *         {
+                     *           "at_s": 0,
+                     *           "force_n": -9.4,
+                     *           "joint": "rho3",
+                     *           "limit_n": 120,
+                     *           "share": 0.0783
+                     *         }
+                     *       ],
+                     *       "id": "0d4b7b0e-6f0b-4a53-9a55-7a2f0c1b9d11",
+                     *       "joints": {
+                     *         "rho1_mm": 489.132,
+                     *         "rho2_mm": 611.07,
+                     *         "rho3_mm": 50
+                     *       },
+                     *       "tip": {
+                     *         "x_mm": 700,
+                     *         "y_mm": 360,
+                     *         "z_mm": 142
+                     *       },
+                     *       "way": [
+                     *         {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         },
+                     *         {
+                     *           "x_mm": 658,
+                     *           "y_mm": 347.5,
+                     *           "z_mm": 142
+                     *         },
+                     *         {
+                     *           "x_mm": 700,
+                     *           "y_mm": 360,
+                     *           "z_mm": 142
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["MoveTarget"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly forgetTarget: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getSimulatedCar: {
         readonly parameters: {
             readonly query?: never;
@@ -7084,6 +8318,46 @@ export interface operations {
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
             readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getVersions: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "board": "Me Auriga",
+                     *       "firmware": "1.0.0",
+                     *       "libraries": [
+                     *         {
+                     *           "name": "fastapi",
+                     *           "version": "0.115.6"
+                     *         }
+                     *       ],
+                     *       "protocol_hash": "13345a36",
+                     *       "python": "3.11.9",
+                     *       "software": "0.1.0",
+                     *       "system": "Linux 6.6.31 aarch64"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Versions"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

@@ -38,6 +38,17 @@ export type ReplyMessage = Schemas["ReplyMessage"];
 export type ServerMessage = SnapshotMessage | DeltaMessage | ReplyMessage;
 
 export type Reach = Schemas["Reach"];
+export type Configuration = Schemas["Configuration"];
+export type ConfigurationCheck = Schemas["ConfigurationCheck"];
+export type ConfigurationField = Schemas["ConfigurationField"];
+export type ConfigurationFields = Schemas["ConfigurationFields"];
+export type ConfigurationHistory = Schemas["ConfigurationHistory"];
+export type ConfigurationVersion = Schemas["ConfigurationVersion"];
+export type Versions = Schemas["Versions"];
+export type ProtocolFrame = Schemas["ProtocolFrame"];
+export type ProtocolFrames = Schemas["ProtocolFrames"];
+export type MoveTarget = Schemas["MoveTarget"];
+export type CameraInspection = Schemas["CameraInspection"];
 export type JogMessage = Schemas["JogMessage"];
 export type JogStepMessage = Schemas["JogStepMessage"];
 export type JogAxis = JogMessage["axis"];
