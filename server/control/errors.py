@@ -15,6 +15,7 @@ ControlError
 │   └── FollowingError           the slide is not where it should be
 ├── MotionRefusedError           the board refused the motion
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
+├── CalibrationHeldError         the same, and the calibration was to be changed
 ├── MotionOutOfReachError        joint limit, workspace or singularity
 ├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
 ├── ForceLimitError              the force along the insertion axis went over its limit
@@ -160,6 +161,14 @@ class LateralMotionForbiddenError(ControlError):
 
     code = "lateral_motion_forbidden"
     title = "The plug may be in the socket"
+    remedy = "Unplug first. If the plug hangs free, confirm that on the page."
+
+
+class CalibrationHeldError(ControlError):
+    """The calibration cannot change while the plug is, or may be, in a socket."""
+
+    code = "calibration_held"
+    title = "The calibration cannot be changed now"
     remedy = "Unplug first. If the plug hangs free, confirm that on the page."
 
 
