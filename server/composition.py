@@ -16,6 +16,8 @@ from drivers.simulator.following import RobotFollower
 from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationError
 from server.access import Access
+from server.calibration.routines.desk import RoutineDesk
+from server.calibration.versions.service import Calibrations
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
@@ -95,6 +97,9 @@ async def running(
         access = Access(database, calendar, settings.access, speed)
         await access.start()
         stack.push_async_callback(access.close)
+        calibrations = Calibrations(database, settings, calendar)
+        await calibrations.start()
+        known = calibrations.in_force
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
@@ -112,15 +117,25 @@ async def running(
             strength=Strength(
                 loads_at_limits(settings.loads, settings.insertion), settings.actuators
             ),
+            mechanism=known.mechanism,
         )
         if devices.followed is not None:
             _let_follow(devices.followed.follower, supervisor)
         eye = Eye(
             devices.camera,
-            settings.camera.optics,
-            settings.camera.mount,
+            known.optics(settings.camera),
+            known.mount(settings.camera),
             settings.geometry,
             supervisor.telemetry,
+        )
+        calibrations.apply_to(supervisor, eye)
+        routines = RoutineDesk(
+            supervisor=supervisor,
+            eye=eye,
+            vehicles=vehicles,
+            calibrations=calibrations,
+            settings=settings,
+            calendar=calendar,
         )
         runner = JobRunner(
             supervisor=supervisor,
@@ -187,6 +202,8 @@ async def running(
             station=station,
             camera=camera,
             live=live,
+            calibrations=calibrations,
+            routines=routines,
             divergence=divergence,
             guide=guide,
             recordings=recordings,
@@ -225,6 +242,7 @@ async def _start(
     stack.push_async_callback(services.charge_point.close)
     await services.supervisor.start(wait=wait_for_robot)
     stack.push_async_callback(services.supervisor.close)
+    stack.push_async_callback(services.routines.close)
     await services.runner.start()
     stack.push_async_callback(services.runner.close)
     await services.station.start()
@@ -314,7 +332,7 @@ def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
     """Let the simulated surroundings of a real robot know where it stands."""
 
     def pass_on() -> None:
-        state = supervisor.telemetry.latest
+        state = supervisor.board_state
         if state is not None:
             follower.take(state)
 

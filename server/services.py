@@ -8,6 +8,8 @@ from datetime import datetime
 from drivers.simulator.garage import SimulatedGarage
 from server.access import Access
 from server.adjusting import RunningSettings
+from server.calibration.routines.desk import RoutineDesk
+from server.calibration.versions.service import Calibrations
 from server.charge_point import ChargePointService
 from server.config.settings import Settings
 from server.control.jog import Jog
@@ -48,6 +50,8 @@ class Services:
         station: Newest reading of the charging station.
         camera: Pictures for people.
         live: Pushes what changes.
+        calibrations: What is known of this very robot.
+        routines: Measures it.
         divergence: Runs the model beside the robot.
         guide: Tells arriving drivers how far to go.
         recordings: What was recorded of jobs.
@@ -74,6 +78,8 @@ class Services:
     station: StationWatch
     camera: CameraFeed
     live: LiveHub
+    calibrations: Calibrations
+    routines: RoutineDesk
     divergence: DivergenceWatcher
     guide: Guide
     recordings: RecordingStore

@@ -58,6 +58,16 @@ OPERATIONS: Mapping[str, Need] = {
     "getStation": Need.READ,
     "getCameraSnapshot": Need.READ,
     "streamCamera": Need.READ,
+    # calibration
+    "listCalibrations": Need.READ,
+    "getCalibration": Need.READ,
+    "getCalibrationNow": Need.READ,
+    "keepCalibration": Need.SERVICE,
+    "activateCalibration": Need.SERVICE,
+    "rollBackCalibration": Need.SERVICE,
+    "beginCalibration": Need.SERVICE,
+    "resumeCalibration": Need.SERVICE,
+    "cancelCalibration": Need.SERVICE,
     # arriving cars
     "getGuidance": Need.READ,
     "getSimulatedCar": Need.READ,

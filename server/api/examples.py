@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
+from server.api.calibration_examples import CALIBRATION_MODELS
 
 Json = Any
 
@@ -79,6 +80,7 @@ _DELIVERY: dict[str, Json] = {
 
 MODELS: dict[str, Json] = {
     **ACCESS_MODELS,
+    **CALIBRATION_MODELS,
     "ChargePoint": {
         "cp_state": "C",
         "enabled": True,

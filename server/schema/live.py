@@ -17,6 +17,7 @@ from server.schema.guidance import Guidance
 from server.schema.jobs import Job
 from server.schema.problem import Problem
 from server.schema.robot import JogStep, Robot
+from server.schema.routines import CalibrationNow
 from server.schema.station import Station
 
 PROTOCOL_VERSION: Literal[1] = 1
@@ -48,6 +49,7 @@ class Live(Wire):
     service: Service
     twin: TwinReport = TwinReport()
     guidance: Guidance | None = None
+    calibration: CalibrationNow = CalibrationNow()
 
 
 class LiveChanges(Wire):
@@ -59,6 +61,7 @@ class LiveChanges(Wire):
     service: Service | None = None
     twin: TwinReport | None = None
     guidance: Guidance | None = None
+    calibration: CalibrationNow | None = None
 
 
 class SnapshotMessage(Wire):

@@ -386,6 +386,181 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List calibrations
+         * @description All versions that were ever made, newest first.
+         */
+        readonly get: operations["listCalibrations"];
+        readonly put?: never;
+        /**
+         * Keep numbers from elsewhere
+         * @description Keep numbers that were found elsewhere, such as in a camera file, as a new version.
+         *
+         *     It is not in force, and nobody has measured what it misses.
+         */
+        readonly post: operations["keepCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/{calibration_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read a calibration
+         * @description One version with what it rests on.
+         */
+        readonly get: operations["getCalibration"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/{calibration_id}/activation": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Put a calibration in force
+         * @description Put a version in force. Nothing moves by it.
+         *
+         *     One that is worse than the one in force is refused with how much worse it is, unless that is
+         *     accepted. Refused while a job, or somebody else, uses the robot, and while the plug is in a
+         *     socket.
+         */
+        readonly post: operations["activateCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/now": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what is in force
+         * @description The version of each kind that counts now, and the routine under way or the last one.
+         */
+        readonly get: operations["getCalibrationNow"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/roll-back": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go back to the one before
+         * @description Put in force what was in force before: an older version, or what the configuration says.
+         *
+         *     Refused while a job, or somebody else, uses the robot, and while the plug is in a socket.
+         */
+        readonly post: operations["rollBackCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Begin a routine
+         * @description The robot looks at a label that stands still from 25 places; that takes two minutes.
+         *
+         *     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
+         *     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
+         */
+        readonly post: operations["beginCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/cancel": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * End the routine
+         * @description The robot comes to rest, and nothing is kept.
+         */
+        readonly post: operations["cancelCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/resume": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go on with the routine
+         * @description Go on where the routine was interrupted.
+         */
+        readonly post: operations["resumeCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/camera/snapshot.jpg": {
         readonly parameters: {
             readonly query?: never;
@@ -1295,6 +1470,18 @@ export interface components {
             readonly screen: boolean;
         };
         /**
+         * Activation
+         * @description Put a version in force.
+         */
+        readonly Activation: {
+            /**
+             * Accept Worse
+             * @description Also if it is worse than the one in force, or was not measured
+             * @default false
+             */
+            readonly accept_worse?: boolean;
+        };
+        /**
          * Attempt
          * @description One attempt to deliver.
          */
@@ -1366,6 +1553,25 @@ export interface components {
             readonly times: number;
         };
         /**
+         * BeltReading
+         * @description How far a carriage really went, measured with a rule.
+         */
+        readonly BeltReading: {
+            /**
+             * Commanded Mm
+             * @description By the board's counting, both ends approached from the same side
+             */
+            readonly commanded_mm: number;
+            /** Measured Mm */
+            readonly measured_mm: number;
+            /**
+             * Reading Sigma Mm
+             * @description How exactly each end of the rule was read
+             * @default 0.1
+             */
+            readonly reading_sigma_mm?: number;
+        };
+        /**
          * Brake
          * @description Stop now.
          */
@@ -1375,6 +1581,229 @@ export interface components {
              * @enum {string}
              */
             readonly type: "brake";
+        };
+        /**
+         * Calibration
+         * @description One version. It never changes.
+         */
+        readonly Calibration: {
+            /**
+             * Error
+             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             */
+            readonly error: number | null;
+            /**
+             * Error In Use
+             * @description What the one then in force missed on the same data
+             */
+            readonly error_in_use: number | null;
+            readonly grade: components["schemas"]["Grade"];
+            /** Id */
+            readonly id: string;
+            /** In Force */
+            readonly in_force: boolean;
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks: readonly string[];
+            /**
+             * Source
+             * @description Where its numbers come from, in words
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"];
+            /**
+             * Version
+             * @description Counted from 1, of each kind
+             */
+            readonly version: number;
+        };
+        /**
+         * CalibrationDetail
+         * @description One version with what it rests on.
+         */
+        readonly CalibrationDetail: {
+            /**
+             * Error
+             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             */
+            readonly error: number | null;
+            /**
+             * Error In Use
+             * @description What the one then in force missed on the same data
+             */
+            readonly error_in_use: number | null;
+            readonly evidence: components["schemas"]["RobotEvidence"] | null;
+            readonly grade: components["schemas"]["Grade"];
+            /** Id */
+            readonly id: string;
+            /** In Force */
+            readonly in_force: boolean;
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks: readonly string[];
+            /**
+             * Source
+             * @description Where its numbers come from, in words
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"];
+            /**
+             * Version
+             * @description Counted from 1, of each kind
+             */
+            readonly version: number;
+        };
+        /**
+         * CalibrationEntry
+         * @description Numbers from elsewhere, such as a file of `plugpilot calibrate camera`.
+         */
+        readonly CalibrationEntry: {
+            /**
+             * Source
+             * @example camera-0003.toml
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"];
+        };
+        /**
+         * CalibrationKind
+         * @description What is calibrated. Of each kind one version counts, or the configuration.
+         * @enum {string}
+         */
+        readonly CalibrationKind: "camera" | "robot";
+        /**
+         * CalibrationNow
+         * @description What counts, and what is being measured.
+         */
+        readonly CalibrationNow: {
+            /** @default {} */
+            readonly in_force?: components["schemas"]["CalibrationsInForce"];
+            readonly routine?: components["schemas"]["Routine"] | null;
+        };
+        /**
+         * CalibrationPage
+         * @description Calibrations, newest first.
+         */
+        readonly CalibrationPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["Calibration"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
+         * CalibrationsInForce
+         * @description What counts now; null: what the configuration says.
+         */
+        readonly CalibrationsInForce: {
+            readonly camera?: components["schemas"]["Calibration"] | null;
+            readonly robot?: components["schemas"]["Calibration"] | null;
+        };
+        /**
+         * CameraModel
+         * @description Intrinsics of one camera at one resolution.
+         *
+         *     A point (x, y, 1) in the camera frame (x right, y down, z forward) appears at
+         *     u = fx x_d + cx, v = fy y_d + cy with r^2 = x^2 + y^2 and
+         *     x_d = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2),
+         *     y_d = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y.
+         *     Pixel centres are at integer coordinates: (0, 0) is the centre of the top left pixel.
+         */
+        readonly CameraModel: {
+            /**
+             * Cx
+             * @description [px]
+             */
+            readonly cx: number;
+            /**
+             * Cy
+             * @description [px]
+             */
+            readonly cy: number;
+            /**
+             * Fx
+             * @description [px]
+             */
+            readonly fx: number;
+            /**
+             * Fy
+             * @description [px]
+             */
+            readonly fy: number;
+            /**
+             * Height
+             * @description [px]
+             */
+            readonly height: number;
+            /**
+             * K1
+             * @default 0
+             */
+            readonly k1?: number;
+            /**
+             * K2
+             * @default 0
+             */
+            readonly k2?: number;
+            /**
+             * K3
+             * @default 0
+             */
+            readonly k3?: number;
+            /**
+             * P1
+             * @default 0
+             */
+            readonly p1?: number;
+            /**
+             * P2
+             * @default 0
+             */
+            readonly p2?: number;
+            /**
+             * Width
+             * @description [px]
+             */
+            readonly width: number;
+        };
+        /**
+         * CameraValues
+         * @description The camera's own numbers.
+         */
+        readonly CameraValues: {
+            readonly camera: components["schemas"]["CameraModel"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "camera";
         };
         /**
          * ChargePoint
@@ -1815,6 +2244,12 @@ export interface components {
         readonly FaultBegan: {
             readonly fault: components["schemas"]["RobotFault"];
         };
+        /**
+         * Grade
+         * @description What to do with a calibration; from best to worst.
+         * @enum {string}
+         */
+        readonly Grade: "good" | "usable" | "bad";
         /**
          * Guidance
          * @description What the driver of an arriving car is told.
@@ -2588,6 +3023,16 @@ export interface components {
          * @description Every live section.
          */
         readonly Live: {
+            /**
+             * @default {
+             *       "in_force": {
+             *         "camera": null,
+             *         "robot": null
+             *       },
+             *       "routine": null
+             *     }
+             */
+            readonly calibration?: components["schemas"]["CalibrationNow"];
             /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
@@ -2608,6 +3053,8 @@ export interface components {
          */
         readonly LiveChanges: {
             /** @default null */
+            readonly calibration?: components["schemas"]["CalibrationNow"] | null;
+            /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
             readonly job?: components["schemas"]["Job"] | null;
@@ -2619,6 +3066,47 @@ export interface components {
             readonly station?: components["schemas"]["Station"] | null;
             /** @default null */
             readonly twin?: components["schemas"]["TwinReport"] | null;
+        };
+        /**
+         * LookRecord
+         * @description One look at the label, and how it fits to the calibration.
+         */
+        readonly LookRecord: {
+            /**
+             * Covariance Mm2
+             * @description Of label_mm, row by row
+             */
+            readonly covariance_mm2: readonly number[];
+            /**
+             * Label Mm
+             * @description In the camera frame
+             */
+            readonly label_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Residual Mm
+             * @description Seen less predicted, camera frame
+             */
+            readonly residual_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Rho1 Mm
+             * @description As the board counts
+             */
+            readonly rho1_mm: number;
+            /** Rho2 Mm */
+            readonly rho2_mm: number;
+            /**
+             * Weight
+             * @description 1; less for a look that does not fit
+             */
+            readonly weight: number;
         };
         /**
          * MeasuredMotion
@@ -2880,6 +3368,66 @@ export interface components {
             readonly type: "ping";
         };
         /**
+         * PlanarAsBuilt
+         * @description Ten numbers of one built robot; `as_drawn` gives those of the drawing.
+         */
+        readonly PlanarAsBuilt: {
+            /**
+             * Left Foot X Mm
+             * @description O1, left foot + L3/2 at rho1 = 0, along x
+             */
+            readonly left_foot_x_mm: number;
+            /**
+             * Left Foot Y Mm
+             * @description O1, along y
+             */
+            readonly left_foot_y_mm: number;
+            /**
+             * Left Leg Mm
+             * @description L1, length of AB
+             */
+            readonly left_leg_mm: number;
+            /**
+             * Left Rail Rad
+             * @description a1, left rail against the x axis
+             * @default 0
+             */
+            readonly left_rail_rad?: number;
+            /**
+             * Left Scale
+             * @description k1, true travel over the board's rho1
+             * @default 1
+             */
+            readonly left_scale?: number;
+            /**
+             * Right Foot X Mm
+             * @description O2, right foot - L3/2 at rho2 = 0, along x
+             */
+            readonly right_foot_x_mm: number;
+            /**
+             * Right Foot Y Mm
+             * @description O2, along y
+             */
+            readonly right_foot_y_mm: number;
+            /**
+             * Right Leg Mm
+             * @description L2, length of CE
+             */
+            readonly right_leg_mm: number;
+            /**
+             * Right Rail Rad
+             * @description a2, right rail against the x axis
+             * @default 0
+             */
+            readonly right_rail_rad?: number;
+            /**
+             * Right Scale
+             * @description k2, true travel over the board's rho2
+             * @default 1
+             */
+            readonly right_scale?: number;
+        };
+        /**
          * Playback
          * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
          */
@@ -3097,6 +3645,31 @@ export interface components {
             readonly updated_at: string;
         };
         /**
+         * RobotEvidence
+         * @description What a calibration of the robot rests on.
+         */
+        readonly RobotEvidence: {
+            /**
+             * Duration S
+             * @description Robot time
+             */
+            readonly duration_s: number;
+            /** Looks */
+            readonly looks: readonly components["schemas"]["LookRecord"][];
+            /**
+             * Sigma
+             * @description Standard deviation of each unknown
+             */
+            readonly sigma: {
+                readonly [key: string]: number;
+            };
+            /**
+             * Unseen
+             * @description What the looks could not tell, in sentences
+             */
+            readonly unseen: readonly string[];
+        };
+        /**
          * RobotFault
          * @description Why the robot stands still, in words a person can act on.
          */
@@ -3141,11 +3714,128 @@ export interface components {
          */
         readonly RobotMode: "offline" | "off" | "not_homed" | "homing" | "ready" | "moving" | "stopping" | "stopped" | "emergency_stop" | "fault";
         /**
+         * RobotValues
+         * @description The mechanism, and how the camera on it is turned.
+         *
+         *     Where on the platform the camera sits, no motion of the robot tells: that stays as configured.
+         */
+        readonly RobotValues: {
+            /**
+             * Camera Rotation Rad
+             * @description Rotation vector of the camera on the platform
+             */
+            readonly camera_rotation_rad: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "robot";
+            readonly mechanism: components["schemas"]["PlanarAsBuilt"];
+        };
+        /**
          * Role
          * @description What a person is to the robot.
          * @enum {string}
          */
         readonly Role: "viewer" | "resident" | "technician" | "owner";
+        /**
+         * RollBack
+         * @description Go back to what was in force before.
+         */
+        readonly RollBack: {
+            readonly kind: components["schemas"]["CalibrationKind"];
+        };
+        /**
+         * Routine
+         * @description The routine under way, or the last one.
+         */
+        readonly Routine: {
+            /**
+             * Begun At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly begun_at: string;
+            /** Begun By */
+            readonly begun_by: string;
+            /**
+             * Calibration Id
+             * @description What came of it; nobody uses it yet
+             */
+            readonly calibration_id: string | null;
+            /**
+             * Doing
+             * @description In a sentence
+             */
+            readonly doing: string;
+            /** Done */
+            readonly done: number;
+            /**
+             * Kind
+             * @constant
+             */
+            readonly kind: "robot";
+            /** Looks */
+            readonly looks: readonly components["schemas"]["RoutineLook"][];
+            /** @description Why it stands still, or has failed */
+            readonly problem: components["schemas"]["Problem"] | null;
+            /**
+             * State
+             * @description An interrupted one can be resumed where it was
+             * @enum {string}
+             */
+            readonly state: "running" | "interrupted" | "finished" | "failed" | "cancelled";
+            /**
+             * Total
+             * @description Places to look from; 0 until they are chosen
+             */
+            readonly total: number;
+        };
+        /**
+         * RoutineLook
+         * @description One place from which the label was looked for.
+         */
+        readonly RoutineLook: {
+            /** Seen */
+            readonly seen: boolean;
+            /**
+             * X Mm
+             * @description Of the platform, as far as known
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
+        /**
+         * RoutineRequest
+         * @description Begin a routine: 25 looks at the label of a vehicle that stands still.
+         */
+        readonly RoutineRequest: {
+            /**
+             * Kind
+             * @default robot
+             * @constant
+             */
+            readonly kind?: "robot";
+            /**
+             * Label Sigma Mm
+             * @description How exactly the side of the printed label was measured
+             * @default 0.15
+             */
+            readonly label_sigma_mm?: number;
+            readonly left_belt?: components["schemas"]["BeltReading"] | null;
+            /** @description Without both the scale of everything is known to a quarter percent only */
+            readonly right_belt?: components["schemas"]["BeltReading"] | null;
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one
+             */
+            readonly vehicle_id?: string | null;
+        };
         /**
          * Scope
          * @description What a key is for.
@@ -4881,6 +5571,681 @@ export interface operations {
             };
             readonly 401: components["responses"]["Problem401"];
             readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listCalibrations: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Only of this kind */
+                readonly kind?: components["schemas"]["CalibrationKind"] | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly keepCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "source": "camera-0003.toml",
+                 *       "values": {
+                 *         "camera": {
+                 *           "cx": 818.2,
+                 *           "cy": 617.9,
+                 *           "fx": 1296.4,
+                 *           "fy": 1296.1,
+                 *           "height": 1232,
+                 *           "k1": 0.021,
+                 *           "k2": -0.034,
+                 *           "k3": 0,
+                 *           "p1": 0,
+                 *           "p2": 0,
+                 *           "width": 1640
+                 *         },
+                 *         "kind": "camera"
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["CalibrationEntry"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of calibrations */
+                readonly calibration_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "evidence": {
+                     *         "duration_s": 96.4,
+                     *         "looks": [
+                     *           {
+                     *             "covariance_mm2": [
+                     *               0.0001,
+                     *               0,
+                     *               0,
+                     *               0,
+                     *               0.0001,
+                     *               0,
+                     *               0,
+                     *               0,
+                     *               0.0025
+                     *             ],
+                     *             "label_mm": [
+                     *               12.1,
+                     *               -3.4,
+                     *               291
+                     *             ],
+                     *             "residual_mm": [
+                     *               0.011,
+                     *               -0.004,
+                     *               0.052
+                     *             ],
+                     *             "rho1_mm": 212.4,
+                     *             "rho2_mm": 180.9,
+                     *             "weight": 1
+                     *           }
+                     *         ],
+                     *         "sigma": {
+                     *           "left_leg_mm": 0.21
+                     *         },
+                     *         "unseen": []
+                     *       },
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationDetail"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly activateCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of calibrations */
+                readonly calibration_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "accept_worse": false
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["Activation"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getCalibrationNow: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "in_force": {
+                     *         "camera": null,
+                     *         "robot": {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         }
+                     *       },
+                     *       "routine": {
+                     *         "begun_at": "2026-03-01T18:02:11.400Z",
+                     *         "begun_by": "Anna",
+                     *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "doing": "The calibration is done. Nobody uses it yet.",
+                     *         "done": 25,
+                     *         "kind": "robot",
+                     *         "looks": [
+                     *           {
+                     *             "seen": true,
+                     *             "x_mm": 642,
+                     *             "y_mm": 331.5
+                     *           }
+                     *         ],
+                     *         "problem": null,
+                     *         "state": "finished",
+                     *         "total": 25
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationNow"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly rollBackCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "kind": "robot"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["RollBack"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "in_force": {
+                     *         "camera": null,
+                     *         "robot": {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         }
+                     *       },
+                     *       "routine": {
+                     *         "begun_at": "2026-03-01T18:02:11.400Z",
+                     *         "begun_by": "Anna",
+                     *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "doing": "The calibration is done. Nobody uses it yet.",
+                     *         "done": 25,
+                     *         "kind": "robot",
+                     *         "looks": [
+                     *           {
+                     *             "seen": true,
+                     *             "x_mm": 642,
+                     *             "y_mm": 331.5
+                     *           }
+                     *         ],
+                     *         "problem": null,
+                     *         "state": "finished",
+                     *         "total": 25
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationNow"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly beginCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "kind": "robot",
+                 *       "label_sigma_mm": 0.1,
+                 *       "left_belt": {
+                 *         "commanded_mm": 300,
+                 *         "measured_mm": 300.7
+                 *       },
+                 *       "right_belt": {
+                 *         "commanded_mm": 300,
+                 *         "measured_mm": 299.4
+                 *       },
+                 *       "vehicle_id": "zoe"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["RoutineRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 202: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly cancelCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly resumeCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

@@ -1,0 +1,69 @@
+"""Calibration routines as the API shows them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from server.schema.base import Timestamp, VehicleId, Wire
+from server.schema.calibrations import CalibrationsInForce
+from server.schema.problem import Problem
+
+
+class BeltReading(Wire):
+    """How far a carriage really went, measured with a rule."""
+
+    commanded_mm: Annotated[float, Field(ge=50, le=2000, allow_inf_nan=False)] = Field(
+        description="By the board's counting, both ends approached from the same side"
+    )
+    measured_mm: Annotated[float, Field(ge=50, le=2000, allow_inf_nan=False)]
+    reading_sigma_mm: Annotated[float, Field(ge=0.01, le=2, allow_inf_nan=False)] = Field(
+        0.1, description="How exactly each end of the rule was read"
+    )
+
+
+class RoutineRequest(Wire):
+    """Begin a routine: 25 looks at the label of a vehicle that stands still."""
+
+    kind: Literal["robot"] = "robot"
+    vehicle_id: VehicleId | None = Field(None, description="Not needed where there is only one")
+    left_belt: BeltReading | None = None
+    right_belt: BeltReading | None = Field(
+        None, description="Without both the scale of everything is known to a quarter percent only"
+    )
+    label_sigma_mm: Annotated[float, Field(ge=0.01, le=2, allow_inf_nan=False)] = Field(
+        0.15, description="How exactly the side of the printed label was measured"
+    )
+
+
+class RoutineLook(Wire):
+    """One place from which the label was looked for."""
+
+    x_mm: float = Field(description="Of the platform, as far as known")
+    y_mm: float
+    seen: bool
+
+
+class Routine(Wire):
+    """The routine under way, or the last one."""
+
+    kind: Literal["robot"]
+    state: Literal["running", "interrupted", "finished", "failed", "cancelled"] = Field(
+        description="An interrupted one can be resumed where it was"
+    )
+    doing: str = Field(description="In a sentence")
+    done: int = Field(ge=0)
+    total: int = Field(ge=0, description="Places to look from; 0 until they are chosen")
+    looks: list[RoutineLook]
+    begun_by: str
+    begun_at: Timestamp
+    calibration_id: str | None = Field(description="What came of it; nobody uses it yet")
+    problem: Problem | None = Field(description="Why it stands still, or has failed")
+
+
+class CalibrationNow(Wire):
+    """What counts, and what is being measured."""
+
+    in_force: CalibrationsInForce = CalibrationsInForce()
+    routine: Routine | None = None
