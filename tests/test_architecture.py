@@ -44,6 +44,7 @@ WIRING = {
     "server.composition",
     "server.serving",
     "server.simulation",
+    "server.simulated_calibration",
     "server.cli",
 }
 """What puts the parts together; the parts do not know it."""
@@ -67,6 +68,7 @@ FORBIDDEN: dict[str, set[str]] = {
         "twin.motion",
     },
     "server.jobs": {"server.live", *WIRING, "drivers.simulator"},
+    "server.calibration": {"server.api", "server.live", *WIRING, "drivers.simulator"},
     "server.divergence": {"server.live", "server.api", *WIRING, "drivers.simulator"},
     "server.recordings": {"server.api", *WIRING, "drivers.simulator"},
     "server.events": {"server.api", *WIRING, "drivers.simulator"},

@@ -48,7 +48,7 @@ class CarIsPluggedInError(RuntimeError):
 
 
 class SimulatedWorld:
-    """Robot, car and physics behind the simulated drivers.
+    """Robot (``plant``), car and physics behind the simulated drivers.
 
     Args:
         geometry: The robot as drawn, which is what the drivers' users know.
@@ -77,7 +77,7 @@ class SimulatedWorld:
         self._platform_camera = built_mount(mount, parameters.build, self.streams.build)
         force_error = self.streams.build.normal(0.0, parameters.drives.force_scale_std)
         self._force_scale = 1.0 + float(force_error)
-        self._plant = built_plant(true_geometry, parameters, sag, self.streams.build)
+        self.plant = built_plant(true_geometry, parameters, sag, self.streams.build)
         self._force_limit_n = parameters.board.default_force_limit_n
         self._slide_jammed = False
         self._listeners: list[ConnectionListener] = []
@@ -197,7 +197,7 @@ class SimulatedWorld:
             return self._state
         if self.spot.moving is not None:
             self._socket = Socket(self.spot.at(now_s).T_base_socket, self._socket.contact)
-        self._state = self._plant.advance(self._state, self.line, self._surroundings, now_s)
+        self._state = self.plant.advance(self._state, self.line, self._surroundings, now_s)
         self._history.append(self._state)
         while self._history[0].t_s < now_s - HISTORY_S:
             self._history.popleft()
@@ -222,7 +222,7 @@ class SimulatedWorld:
         if t_s < start.t_s:
             before = (state for state in reversed(self._history) if state.t_s <= t_s)
             start = next(before, self._history[0])
-        return self._plant.advance(start, self.line, self._surroundings, t_s)
+        return self.plant.advance(start, self.line, self._surroundings, t_s)
 
     # --- the board's side --------------------------------------------------------------------
 
@@ -286,7 +286,7 @@ class SimulatedWorld:
             rho3_mm: Positions of that motor in the board's coordinates.
         """
         around = self._surroundings
-        return [self._plant.contact_force_n(self._state, around, motor) for motor in rho3_mm]
+        return [self.plant.contact_force_n(self._state, around, motor) for motor in rho3_mm]
 
     # --- the station's side ------------------------------------------------------------------
 
@@ -335,7 +335,7 @@ class SimulatedWorld:
     def view_at(self, t_s: float) -> CameraView:
         """The scene in the camera frame at a time of the recent past or the near future [s]."""
         return camera_view(
-            self._plant,
+            self.plant,
             self._state_at(t_s),
             self._platform_camera,
             self.spot.at(t_s),
@@ -346,5 +346,5 @@ class SimulatedWorld:
         """The truth at a time, or when something was last worked out."""
         state = self._state if at_s is None else self.advance(at_s)
         return ground_truth(
-            self._plant, state, self.car, self.parameters.contact, load_breaks=self.load_breaks
+            self.plant, state, self.car, self.parameters.contact, load_breaks=self.load_breaks
         )

@@ -41,7 +41,7 @@ BADLY_BUILT = perfect().model_copy(
 
 
 def truth(cell: RobotCell) -> PlanarAsBuilt:
-    return cell.garage.world._plant.mechanism
+    return cell.garage.world.plant.mechanism
 
 
 def missed_mm(cell: RobotCell, target: JointPosition) -> float:
@@ -192,9 +192,11 @@ def test_no_motion_of_a_badly_built_robot_is_too_fast_for_its_board(seed: int) -
     assert built.speed_share > 0.8
     limits = built.limits(LIMITS)
     for _ in range(20):
-        ways = rng.uniform(-100, 100, (2, 2)) + (650.0, 335.0)
+        ways = np.array([650.0, 335.0]) + rng.uniform(-100, 100, (2, 2))
         start, end = alpha.inverse_many(GEOMETRY, ways).tolist()
-        plan = plan_joint_move(limits, JointPosition(*start, 50.0), JointPosition(*end, 50.0))
+        plan = plan_joint_move(
+            limits, JointPosition(start[0], start[1], 50.0), JointPosition(end[0], end[1], 50.0)
+        )
         for step in built.steps(plan, 0.02):
             assert max(map(abs, step.board.end_velocity)) < LIMITS.rho1.velocity_mm_s + 0.1
 
