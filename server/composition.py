@@ -145,6 +145,7 @@ async def running(
             vehicles=vehicles,
             settings=settings,
             calendar=calendar,
+            as_taught=calibrations.as_taught,
         )
         integrations = Integrations(database, settings, calendar, speed)
         await integrations.running_settings.start()

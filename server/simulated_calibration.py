@@ -15,9 +15,13 @@ from drivers.simulator.world import SimulatedWorld
 from server.composition import running
 from server.config.settings import Settings
 from server.control.built_robot import BuiltRobot
+from server.errors import InternalError, PlugPilotError
+from server.jobs.model import JobState, JobType
 from server.schema.calibrations import CalibrationDetail
-from server.schema.routines import BeltReading, RoutineRequest
+from server.schema.jobs import JobRequest
+from server.schema.routines import Routine, RoutineRequest, SocketRoutineRequest
 from server.services import Services
+from server.simulated_technician import SimulatedTechnician
 from server.simulation import park_first
 from server.timing import VirtualTimeLoop
 from twin.geometry import RobotGeometry
@@ -27,8 +31,8 @@ from twin.kinematics import gamma
 Array = NDArray[np.float64]
 
 TECHNICIAN = "Simulated technician"
-RULE_MM = 300.0
-RULE_SIGMA_MM = 0.1
+PARKS_WITHIN_MM = 20.0
+"""How far beside the taught place the car stands when it comes again."""
 _GRID, _DEPTHS = 7, 3
 
 
@@ -40,15 +44,18 @@ class SimulatedCalibration:
         seed: Of the garage.
         before_mm: How far the plug's tip misses places all over the regular box, as built.
         after_mm: The same calibrated; None if the routine did not succeed.
+        lateral_mm: How far beside its centre the plug of a whole job then meets the socket; None if
+            that did not succeed.
         found: The calibration; None if there is none.
         poses: From how many the robot looked.
-        trouble: Why the routine did not succeed; "" if it did.
+        trouble: What did not succeed; "" if all did.
         wall_s: Computing time.
     """
 
     seed: int
     before_mm: Array
     after_mm: Array | None
+    lateral_mm: float | None
     found: CalibrationDetail | None
     poses: int
     trouble: str
@@ -120,44 +127,65 @@ async def _simulate(settings: Settings) -> SimulatedCalibration:
     async with running(settings, folder=None) as services:
         garage = services.garage
         assert garage is not None  # noqa: S101 - the drivers are the simulator's
-        await park_first(services)
+        rng = np.random.default_rng((settings.simulation.seed, len(TECHNICIAN)))
+        technician = SimulatedTechnician(services, garage.world, rng)
         supervisor = services.supervisor
+        await park_first(services)
         before = tip_errors_mm(garage.world, settings.geometry, supervisor.built)
-        await services.routines.begin(
-            technicians_request(garage.world, settings.simulation.seed), TECHNICIAN
-        )
-        await services.routines.wait()
-        routine = services.routines.shown
-        assert routine is not None  # noqa: S101 - it was begun a moment ago
-        found = await _put_in_force(services, routine.calibration_id)
-        after = tip_errors_mm(garage.world, settings.geometry, supervisor.built)
+        routine = await _carried_out(services, technician.request())
+        after, found, lateral_mm, trouble = None, None, None, _trouble(routine)
+        if routine.calibration_id is not None:
+            found = await services.calibrations.get(routine.calibration_id)
+            after = tip_errors_mm(garage.world, settings.geometry, supervisor.built)
+            try:
+                lateral_mm = await _taught_and_plugged_in(services, technician)
+            except PlugPilotError as error:
+                trouble = error.detail
     return SimulatedCalibration(
         seed=settings.simulation.seed,
         before_mm=before,
-        after_mm=after if found else None,
+        after_mm=after,
+        lateral_mm=lateral_mm,
         found=found,
         poses=routine.done,
-        trouble=routine.problem.detail if routine.problem else "",
+        trouble=trouble,
         wall_s=time.perf_counter() - began,
     )
 
 
-async def _put_in_force(services: Services, calibration_id: str | None) -> CalibrationDetail | None:
-    if calibration_id is None:
-        return None
-    await services.calibrations.activate(calibration_id, by=TECHNICIAN, accept_worse=False)
-    return await services.calibrations.get(calibration_id)
-
-
-def technicians_request(world: SimulatedWorld, seed: int) -> RoutineRequest:
-    """What a technician with a rule and a calliper says."""
-    rng = np.random.default_rng((seed, len(TECHNICIAN)))
-    left, right = (
-        BeltReading(
-            commanded_mm=RULE_MM,
-            measured_mm=RULE_MM * scale + float(np.sqrt(2) * rng.normal(0.0, RULE_SIGMA_MM)),
-            reading_sigma_mm=RULE_SIGMA_MM,
+async def _carried_out(services: Services, request: RoutineRequest) -> Routine:
+    """Run a routine, and put what comes of it in force."""
+    await services.routines.begin(request, TECHNICIAN)
+    await services.routines.wait()
+    routine = services.routines.shown
+    assert routine is not None  # noqa: S101 - it was begun a moment ago
+    if routine.calibration_id is not None:
+        await services.calibrations.activate(
+            routine.calibration_id, by=TECHNICIAN, accept_worse=False
         )
-        for scale in (world.plant.mechanism.left_scale, world.plant.mechanism.right_scale)
-    )
-    return RoutineRequest(left_belt=left, right_belt=right, label_sigma_mm=0.1)
+    return routine
+
+
+async def _taught_and_plugged_in(services: Services, technician: SimulatedTechnician) -> float:
+    """Teach the socket, let the car come again, and plug in: by how much is the plug off?
+
+    Raises:
+        PlugPilotError: that did not work.
+    """
+    await technician.plug_in_by_hand()
+    taught = await _carried_out(services, SocketRoutineRequest())
+    if taught.calibration_id is None:
+        raise InternalError(f"The socket was not taught: {_trouble(taught)}")
+    await park_first(services)
+    technician.park_elsewhere(PARKS_WITHIN_MM)
+    job = await services.runner.create(JobRequest(type=JobType.PLUG_IN), key=None, digest=None)
+    await services.runner.wait()
+    ended = await services.jobs.get(job.id)
+    if ended is None or ended.state is not JobState.SUCCEEDED:
+        reason = ended.error.detail if ended and ended.error else "The job was lost."
+        raise InternalError(f"The job did not succeed: {reason}")
+    return technician.world.truth().lateral_error_mm
+
+
+def _trouble(routine: Routine) -> str:
+    return routine.problem.detail if routine.problem else ""

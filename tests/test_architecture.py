@@ -45,6 +45,7 @@ WIRING = {
     "server.serving",
     "server.simulation",
     "server.simulated_calibration",
+    "server.simulated_technician",
     "server.cli",
 }
 """What puts the parts together; the parts do not know it."""

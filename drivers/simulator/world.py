@@ -133,7 +133,7 @@ class SimulatedWorld:
         """
         rng = np.random.default_rng(seed)
         parked = park(self.geometry, self.parameters.car, self.parameters.contact, rng)
-        self._drive(replace(parked, payload=self.car.payload))
+        self.put_car(replace(parked, payload=self.car.payload))
 
     def remove_car(self) -> None:
         """The car drives away.
@@ -168,7 +168,8 @@ class SimulatedWorld:
         """The label can be seen again."""
         self.spot.cover_label(covered=False)
 
-    def _drive(self, car: ParkedCar) -> None:
+    def put_car(self, car: ParkedCar) -> None:
+        """A car stands here now, as ``park_car`` puts one."""
         self._require_unplugged()
         self.spot.park(car)
         self._take_in(car)
@@ -345,6 +346,5 @@ class SimulatedWorld:
     def truth(self, at_s: float | None = None) -> GroundTruth:
         """The truth at a time, or when something was last worked out."""
         state = self._state if at_s is None else self.advance(at_s)
-        return ground_truth(
-            self.plant, state, self.car, self.parameters.contact, load_breaks=self.load_breaks
-        )
+        contact = self.parameters.contact
+        return ground_truth(self.plant, state, self.car, contact, load_breaks=self.load_breaks)

@@ -90,17 +90,30 @@ CALIBRATION_MODELS: dict[str, Json] = {
     "CalibrationEntry": {"values": _CAMERA_VALUES, "source": "camera-0003.toml"},
     "CalibrationPage": {"items": [_CALIBRATION], "next_cursor": None},
     "CalibrationNow": {
-        "in_force": {"camera": None, "robot": _CALIBRATION},
+        "in_force": {"camera": None, "robot": _CALIBRATION, "sockets": []},
         "routine": _ROUTINE,
     },
     "RollBack": {"kind": "robot"},
     "Routine": _ROUTINE,
-    "RoutineRequest": {
-        "kind": "robot",
-        "vehicle_id": "zoe",
-        "left_belt": {"commanded_mm": 300, "measured_mm": 300.7},
-        "right_belt": {"commanded_mm": 300, "measured_mm": 299.4},
-        "label_sigma_mm": 0.1,
-    },
 }
 """By the name of the schema."""
+
+CALIBRATION_REQUESTS: dict[str, dict[str, Json]] = {
+    "beginCalibration": {
+        "robot": {
+            "summary": "Measure the robot; both belts were measured with a rule",
+            "value": {
+                "kind": "robot",
+                "vehicle_id": "zoe",
+                "left_belt": {"commanded_mm": 300, "measured_mm": 300.7},
+                "right_belt": {"commanded_mm": 300, "measured_mm": 299.4},
+                "label_sigma_mm": 0.1,
+            },
+        },
+        "socket": {
+            "summary": "Teach the socket that the plug is in",
+            "value": {"kind": "socket", "vehicle_id": "zoe"},
+        },
+    },
+}
+"""Operations with more than one example, by operation."""

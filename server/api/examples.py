@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
-from server.api.calibration_examples import CALIBRATION_MODELS
+from server.api.calibration_examples import CALIBRATION_MODELS, CALIBRATION_REQUESTS
 
 Json = Any
 
@@ -236,6 +236,7 @@ BODIES: dict[str, Json] = {
 """Of requests whose body has no schema of its own name, by operation."""
 
 REQUESTS: dict[str, dict[str, Json]] = {
+    **CALIBRATION_REQUESTS,
     "commandSimulatedCar": {
         "drive_in": {
             "summary": "Come in, 20 cm beside the way, and stop at the place",

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from server.calibration.routines.desk import RoutineDesk
 from server.calibration.versions.service import Calibrations
-from server.schema.calibrations import CalibrationsInForce
+from server.schema.calibrations import CalibrationKind, CalibrationsInForce
 from server.schema.routines import CalibrationNow
 
 
 def calibration_view(calibrations: Calibrations, routines: RoutineDesk) -> CalibrationNow:
     """What counts, and what is being measured."""
-    versions = {kind.value: one for kind, one in calibrations.versions_in_force.items()}
+    versions = calibrations.versions_in_force
+    whole = {one.kind: one for one in versions if one.kind is not CalibrationKind.SOCKET}
     return CalibrationNow(
-        in_force=CalibrationsInForce.model_validate(versions), routine=routines.shown
+        in_force=CalibrationsInForce(
+            camera=whole.get(CalibrationKind.CAMERA),
+            robot=whole.get(CalibrationKind.ROBOT),
+            sockets=[one for one in versions if one.kind is CalibrationKind.SOCKET],
+        ),
+        routine=routines.shown,
     )

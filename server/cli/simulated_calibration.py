@@ -22,6 +22,7 @@ def as_document(outcome: SimulatedCalibration) -> dict[str, Any]:
         "poses": outcome.poses,
         "before_mm": _figures(outcome.before_mm),
         "after_mm": None if outcome.after_mm is None else _figures(outcome.after_mm),
+        "lateral_mm": None if outcome.lateral_mm is None else round(outcome.lateral_mm, 4),
         "grade": found.grade.value if found else None,
         "held_back_mm": found.error if found else None,
         "in_use_mm": found.error_in_use if found else None,
@@ -34,10 +35,11 @@ def as_document(outcome: SimulatedCalibration) -> dict[str, Any]:
 def as_line(document: dict[str, Any]) -> str:
     """One robot of a campaign."""
     before, after = document["before_mm"], document["after_mm"]
-    if after is None:
+    if after is None or document["lateral_mm"] is None:
         return f"seed {document['seed']:>4}  FAILED  {document['trouble']}"
     return (
         f"seed {document['seed']:>4}  before {before[1]:.3f} mm  after {after[1]:.3f} mm"
+        f"  job {document['lateral_mm']:.3f} mm off"
         f"  {document['poses']} poses in {document['robot_s']:.0f} s, {document['grade']}"
         f"  computed in {document['wall_s']:.1f} s"
     )
@@ -62,21 +64,32 @@ def as_table(outcome: SimulatedCalibration) -> str:
         f"{found.error_in_use or 0:.3f} mm: {found.grade.value}.",
         *found.remarks,
         *(evidence.unseen if evidence else []),
+        _job(outcome),
         f"Computed in {outcome.wall_s:.1f} s.",
     ]
     return "\n".join(lines)
 
 
+def _job(outcome: SimulatedCalibration) -> str:
+    if outcome.lateral_mm is None:
+        return f"The socket was not taught, or the job failed: {outcome.trouble}"
+    return (
+        "The socket was taught by hand, the car came again, and the plug of a whole job met the "
+        f"socket {outcome.lateral_mm:.3f} mm beside its centre."
+    )
+
+
 def as_summary(documents: Sequence[dict[str, Any]]) -> str:
     """All robots of a campaign together."""
-    good = [one for one in documents if one["after_mm"] is not None]
-    lines = ["", f"{len(good)} of {len(documents)} robots were calibrated"]
+    good = [one for one in documents if one["lateral_mm"] is not None]
+    lines = ["", f"{len(good)} of {len(documents)} robots were calibrated, taught, and plugged in"]
     if not good:
         return "\n".join(lines)
     lines.append(f"{'':<26}{'median':>9}{'p95':>9}{'worst':>9}")
     for name, values, wanted in (
         ("tip before, p95 [mm]", [one["before_mm"][1] for one in good], ""),
         ("tip after, p95 [mm]", [one["after_mm"][1] for one in good], "0.15"),
+        ("job at the socket [mm]", [one["lateral_mm"] for one in good], "0.10"),
         ("robot time [s]", [one["robot_s"] for one in good], "180"),
         ("poses", [one["poses"] for one in good], "25"),
     ):

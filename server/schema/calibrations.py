@@ -9,7 +9,8 @@ from pydantic import Field
 
 from drivers.camera.model import CameraModel
 from server.calibration.grade import Grade
-from server.schema.base import Timestamp, Wire
+from server.schema.base import Timestamp, VehicleId, Wire
+from server.schema.vehicles import SocketOffset
 from twin.as_built import PlanarAsBuilt
 
 Radians = Annotated[float, Field(ge=-6.3, le=6.3, allow_inf_nan=False)]
@@ -19,10 +20,11 @@ CovarianceTerm = Annotated[float, Field(allow_inf_nan=False)]
 
 
 class CalibrationKind(StrEnum):
-    """What is calibrated. Of each kind one version counts, or the configuration."""
+    """What is calibrated. Of each kind, and of sockets for each vehicle, one version counts."""
 
     CAMERA = "camera"
     ROBOT = "robot"
+    SOCKET = "socket"
 
     @property
     def unit(self) -> str:
@@ -50,7 +52,20 @@ class RobotValues(Wire):
     )
 
 
-CalibrationValues = Annotated[CameraValues | RobotValues, Field(discriminator="kind")]
+class SocketValues(Wire):
+    """Where the socket of one vehicle is beside its label, as taught with this robot.
+
+    It takes the place of what the vehicle's settings say.
+    """
+
+    kind: Literal["socket"] = "socket"
+    vehicle_id: VehicleId
+    socket: SocketOffset
+
+
+CalibrationValues = Annotated[
+    CameraValues | RobotValues | SocketValues, Field(discriminator="kind")
+]
 
 
 class LookRecord(Wire):
@@ -80,7 +95,7 @@ class Calibration(Wire):
 
     id: str
     kind: CalibrationKind
-    version: int = Field(ge=1, description="Counted from 1, of each kind")
+    version: int = Field(ge=1, description="Counted from 1, of each kind and vehicle")
     values: CalibrationValues
     grade: Grade
     remarks: list[str] = Field(description="What keeps it from being better, with what to do")
@@ -116,6 +131,7 @@ class CalibrationsInForce(Wire):
 
     camera: Calibration | None = None
     robot: Calibration | None = None
+    sockets: list[Calibration] = Field(default_factory=list, description="Of taught vehicles")
 
 
 class CalibrationEntry(Wire):
@@ -137,3 +153,4 @@ class RollBack(Wire):
     """Go back to what was in force before."""
 
     kind: CalibrationKind
+    vehicle_id: VehicleId | None = Field(None, description="Of a socket: whose")

@@ -23,11 +23,16 @@ class BeltReading(Wire):
     )
 
 
-class RoutineRequest(Wire):
-    """Begin a routine: 25 looks at the label of a vehicle that stands still."""
+LabelOwner = Annotated[
+    VehicleId | None, Field(description="Not needed where there is only one vehicle")
+]
+
+
+class RobotRoutineRequest(Wire):
+    """Measure the robot: 25 looks at the label of a vehicle that stands still."""
 
     kind: Literal["robot"] = "robot"
-    vehicle_id: VehicleId | None = Field(None, description="Not needed where there is only one")
+    vehicle_id: LabelOwner = None
     left_belt: BeltReading | None = None
     right_belt: BeltReading | None = Field(
         None, description="Without both the scale of everything is known to a quarter percent only"
@@ -35,6 +40,19 @@ class RoutineRequest(Wire):
     label_sigma_mm: Annotated[float, Field(ge=0.01, le=2, allow_inf_nan=False)] = Field(
         0.15, description="How exactly the side of the printed label was measured"
     )
+
+
+class SocketRoutineRequest(Wire):
+    """Teach a socket: the plug has been brought all the way in, by jogging or by a job.
+
+    The robot looks, draws the plug out along its axis, and looks again. It moves nowhere else.
+    """
+
+    kind: Literal["socket"] = "socket"
+    vehicle_id: LabelOwner = None
+
+
+RoutineRequest = Annotated[RobotRoutineRequest | SocketRoutineRequest, Field(discriminator="kind")]
 
 
 class RoutineLook(Wire):
@@ -48,7 +66,7 @@ class RoutineLook(Wire):
 class Routine(Wire):
     """The routine under way, or the last one."""
 
-    kind: Literal["robot"]
+    kind: Literal["robot", "socket"]
     state: Literal["running", "interrupted", "finished", "failed", "cancelled"] = Field(
         description="An interrupted one can be resumed where it was"
     )

@@ -22,6 +22,7 @@ from server.schema.calibrations import (
     RollBack,
 )
 from server.schema.routines import CalibrationNow, Routine, RoutineRequest
+from server.storage.calibrations import WHOLE_ROBOT
 
 router = APIRouter(prefix="/calibrations", tags=["calibration"])
 
@@ -78,7 +79,7 @@ async def get_now(services: ServicesDep) -> CalibrationNow:
     responses=problem_responses(404, 409, 422, 503),
 )
 async def begin_routine(wanted: RoutineRequest, request: Request, services: ServicesDep) -> Routine:
-    """The robot looks at a label that stands still from 25 places; that takes two minutes.
+    """Measure the robot, from 25 looks at a label that stands still, or teach a socket.
 
     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
@@ -119,7 +120,9 @@ async def roll_back(wanted: RollBack, request: Request, services: ServicesDep) -
 
     Refused while a job, or somebody else, uses the robot, and while the plug is in a socket.
     """
-    await services.calibrations.roll_back(wanted.kind, by=caller_of(request).name)
+    await services.calibrations.roll_back(
+        wanted.kind, by=caller_of(request).name, subject=wanted.vehicle_id or WHOLE_ROBOT
+    )
     return calibration_view(services.calibrations, services.routines)
 
 

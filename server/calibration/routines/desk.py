@@ -18,6 +18,7 @@ from server.calibration.routines.errors import (
 )
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_routine import RobotRoutine
+from server.calibration.routines.socket_routine import SocketRoutine
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.service import HOLDER, Calibrations
 from server.config.settings import Settings
@@ -27,12 +28,14 @@ from server.errors import InternalError, PlugPilotError
 from server.jobs.errors import UnknownVehicleError, VehicleChoiceError
 from server.localisation.eye import Eye
 from server.schema.problem import problem_from
-from server.schema.routines import Routine, RoutineRequest
+from server.schema.routines import Routine, RoutineRequest, SocketRoutineRequest
 from server.schema.vehicles import Vehicle
 from server.storage.vehicles import VehicleStore
 from server.timing import Calendar
 
 _log = logging.getLogger(__name__)
+
+AnyRoutine = RobotRoutine | SocketRoutine
 
 State = Literal["running", "interrupted", "finished", "failed", "cancelled"]
 
@@ -69,7 +72,7 @@ class RoutineDesk:
         self._settings = settings
         self._calendar = calendar
         self._listeners: list[Callable[[], None]] = []
-        self._routine: RobotRoutine | None = None
+        self._routine: AnyRoutine | None = None
         self._progress = Progress(self._changed)
         self._state: State = "cancelled"
         self._begun_at: datetime = calendar.now()
@@ -112,7 +115,7 @@ class RoutineDesk:
         vehicle = await self._choose_vehicle(request)
         self._refuse_second()
         lease = self._supervisor.acquire("calibration", HOLDER)
-        self._routine = RobotRoutine(request, by, vehicle)
+        self._routine = _routine(request, by, vehicle)
         self._progress = Progress(self._changed)
         self._begun_at, self._kept = self._calendar.now(), None
         return self._go_on(self._routine, lease)
@@ -154,7 +157,7 @@ class RoutineDesk:
         """Stop whatever is under way."""
         await self._end_task()
 
-    def _go_on(self, routine: RobotRoutine, lease: Lease) -> Routine:
+    def _go_on(self, routine: AnyRoutine, lease: Lease) -> Routine:
         self._state, self._problem = "running", None
         self._task = asyncio.create_task(self._run(routine, lease), name="calibration")
         # Not in the task: one that is cancelled before its first step never runs.
@@ -164,8 +167,15 @@ class RoutineDesk:
         assert shown is not None  # noqa: S101 - there is a routine
         return shown
 
-    async def _run(self, routine: RobotRoutine, lease: Lease) -> None:
-        stand = Stand(self._supervisor, lease, self._eye, routine.vehicle, self._settings)
+    async def _run(self, routine: AnyRoutine, lease: Lease) -> None:
+        stand = Stand(
+            supervisor=self._supervisor,
+            lease=lease,
+            eye=self._eye,
+            vehicle=routine.vehicle,
+            settings=self._settings,
+            as_taught=self._calibrations.as_taught,
+        )
         try:
             new = await routine.run(stand, self._progress)
             kept = await self._calibrations.keep(new)
@@ -208,3 +218,9 @@ class RoutineDesk:
     def _changed(self) -> None:
         for listener in self._listeners:
             listener()
+
+
+def _routine(request: RoutineRequest, by: str, vehicle: Vehicle) -> AnyRoutine:
+    if isinstance(request, SocketRoutineRequest):
+        return SocketRoutine(request, by, vehicle)
+    return RobotRoutine(request, by, vehicle)

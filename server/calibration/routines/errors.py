@@ -5,6 +5,7 @@ RoutineError
 ├── NoRoutineError           there is none to go on with, or to end
 ├── LabelMovedError          the label is not where it was when the routine began
 ├── LabelLostError           too few places show the label
+├── PlugNotInError           the socket cannot be taught without the plug in it
 ├── AxesSwappedError         the carriages answer for each other
 └── MotorReversedError       a carriage runs the wrong way
 """
@@ -52,6 +53,14 @@ class LabelLostError(RoutineError):
     code = "calibration_label_lost"
     title = "The label was seen too seldom"
     remedy = "Look for glare, dirt and things in front of the label, then go on."
+
+
+class PlugNotInError(RoutineError):
+    """The socket cannot be taught without the plug in it."""
+
+    code = "calibration_plug_not_in"
+    title = "The plug is not in the socket"
+    remedy = "Jog the plug all the way into the socket first."
 
 
 class AxesSwappedError(RoutineError):

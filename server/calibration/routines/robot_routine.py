@@ -26,7 +26,7 @@ from server.calibration.routines.stand import Stand
 from server.calibration.routines.wiring import check_wiring
 from server.calibration.versions.service import NewCalibration
 from server.control.errors import ActuatorOverloadError, MotionOutOfReachError
-from server.schema.routines import RoutineRequest
+from server.schema.routines import RobotRoutineRequest
 from server.schema.vehicles import Vehicle
 from twin.as_built import PlanarAsBuilt
 from twin.joints import JointPosition
@@ -60,7 +60,7 @@ class RobotRoutine:
         vehicle: Whose label.
     """
 
-    request: RoutineRequest
+    request: RobotRoutineRequest
     by: str
     vehicle: Vehicle
     _first: _First | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +19,7 @@ from server.localisation.errors import ImplausiblePlaceError
 from server.localisation.eye import Eye
 from server.localisation.looks import LookPlanner
 from server.schema.vehicles import Vehicle
-from server.vision import AmbiguousLabelError, PoseRejectedError
+from server.vision import AmbiguousLabelError, LabelPose, PoseRejectedError
 from twin.joints import JointPosition
 from twin.kinematics import KinematicsError, PlatformPosition, alpha
 
@@ -39,6 +40,7 @@ class Stand:
         eye: Camera and locator.
         vehicle: Whose label it looks at.
         settings: The whole configuration.
+        as_taught: Puts the socket of a vehicle where it was taught.
     """
 
     supervisor: Supervisor
@@ -46,6 +48,7 @@ class Stand:
     eye: Eye
     vehicle: Vehicle
     settings: Settings
+    as_taught: Callable[[Vehicle], Vehicle]
 
     async def make_ready(self) -> None:
         """Drives on, zero known, plug drawn back.
@@ -109,10 +112,7 @@ class Stand:
         Raises:
             CameraDownError: the camera does not deliver.
         """
-        try:
-            seen = await self.eye.sight(self.vehicle, FRAMES)
-        except (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError):
-            return None
+        seen = await self.sight()
         if seen is None:
             return None
         board = self._board_state.commanded.position
@@ -121,6 +121,17 @@ class Stand:
             seen.T_camera_label[:3, 3].copy(),
             seen.covariance[3:, 3:].copy(),
         )
+
+    async def sight(self) -> LabelPose | None:
+        """The label's pose in the camera frame; None as in ``look``.
+
+        Raises:
+            CameraDownError: the camera does not deliver.
+        """
+        try:
+            return await self.eye.sight(self.vehicle, FRAMES)
+        except (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError):
+            return None
 
     @property
     def platform_mm(self) -> Array:

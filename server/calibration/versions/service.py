@@ -18,7 +18,7 @@ from server.calibration.versions.errors import (
     CalibrationWorseError,
     NothingToRollBackError,
 )
-from server.calibration.versions.values import ValuesInForce
+from server.calibration.versions.values import ValuesInForce, subject_of
 from server.config.settings import Settings
 from server.control.finishing import finish
 from server.control.lease import Lease
@@ -33,13 +33,17 @@ from server.schema.calibrations import (
     RobotEvidence,
     RobotValues,
 )
-from server.storage.calibrations import CalibrationStore, StoredCalibration
+from server.schema.vehicles import Vehicle
+from server.storage.calibrations import WHOLE_ROBOT, CalibrationStore, StoredCalibration
 from server.storage.database import Database
 from server.timing import Calendar
 
 HOLDER = "Calibration"
 
 _VALUES: TypeAdapter[CalibrationValues] = TypeAdapter(CalibrationValues)
+
+Key = tuple[CalibrationKind, str]
+"""Kind and subject: of each one version counts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +84,7 @@ class Calibrations:
         self._store = CalibrationStore(database)
         self._settings = settings
         self._calendar = calendar
-        self._in_force: dict[CalibrationKind, StoredCalibration] = {}
+        self._in_force: dict[Key, StoredCalibration] = {}
         self._parts: tuple[Supervisor, Eye] | None = None
         self._changing = asyncio.Lock()
         self._listeners: list[Callable[[], None]] = []
@@ -91,9 +95,13 @@ class Calibrations:
         return _values_of(self._in_force)
 
     @property
-    def versions_in_force(self) -> dict[CalibrationKind, Calibration]:
-        """The versions that count now; a kind that is missing is as configured."""
-        return {kind: self._shown(stored) for kind, stored in self._in_force.items()}
+    def versions_in_force(self) -> list[Calibration]:
+        """The versions that count now; what is missing is as configured."""
+        return [self._shown(stored) for stored in self._in_force.values()]
+
+    def as_taught(self, vehicle: Vehicle) -> Vehicle:
+        """A vehicle with its socket where it was taught, if it was."""
+        return self.in_force.as_taught(vehicle)
 
     def listen(self, listener: Callable[[], None]) -> None:
         """Call ``listener`` when another version is in force."""
@@ -102,7 +110,7 @@ class Calibrations:
     async def start(self) -> None:
         """Read which versions count."""
         stored = await self._store.in_force()
-        self._in_force = {CalibrationKind(one.kind): one for one in stored}
+        self._in_force = {_key(one): one for one in stored}
 
     def apply_to(self, supervisor: Supervisor, eye: Eye) -> None:
         """From now on, changes are applied to these; they were made with those in force."""
@@ -119,6 +127,7 @@ class Calibrations:
             StoredCalibration(
                 id=str(uuid7()),
                 kind=new.values.kind,
+                subject=subject_of(new.values),
                 made_at=self._calendar.now(),
                 made_by=new.made_by,
                 source=new.source,
@@ -175,13 +184,15 @@ class Calibrations:
             comparison = self._compared(stored)
             if comparison.warning is not None and not accept_worse:
                 raise CalibrationWorseError(comparison.warning, **_figures(comparison))
-            wanted = {**self._in_force, CalibrationKind(stored.kind): stored}
+            wanted = {**self._in_force, _key(stored): stored}
             use = partial(self._store.use, stored, self._calendar.now(), by)
             await finish(self._change(wanted, use))
         self._tell()
         return self._shown(stored)
 
-    async def roll_back(self, kind: CalibrationKind, *, by: str) -> Calibration | None:
+    async def roll_back(
+        self, kind: CalibrationKind, *, by: str, subject: str = WHOLE_ROBOT
+    ) -> Calibration | None:
         """Go back to what was in force before; None: what is configured.
 
         Raises:
@@ -189,13 +200,14 @@ class Calibrations:
             ControlBusyError, CalibrationHeldError: as in ``activate``.
         """
         async with self._changing:
-            if kind not in self._in_force:
+            key = (kind, subject)
+            if key not in self._in_force:
                 raise NothingToRollBackError(f"No calibration of the {kind.value} is in force.")
-            before = await self._store.before(kind)
-            wanted = {one: stored for one, stored in self._in_force.items() if one is not kind}
+            before = await self._store.before(kind, subject)
+            wanted = {one: stored for one, stored in self._in_force.items() if one != key}
             if before is not None:
-                wanted[kind] = before
-            undo = partial(self._store.undo, kind, self._calendar.now(), by)
+                wanted[key] = before
+            undo = partial(self._store.undo, kind, self._calendar.now(), by, subject)
             await finish(self._change(wanted, undo))
         self._tell()
         return None if before is None else self._shown(before)
@@ -203,7 +215,7 @@ class Calibrations:
     # Inside
 
     async def _change(
-        self, wanted: dict[CalibrationKind, StoredCalibration], write: Callable[[], Awaitable[None]]
+        self, wanted: dict[Key, StoredCalibration], write: Callable[[], Awaitable[None]]
     ) -> None:
         """Change the parts and what is kept, both or none."""
         if self._parts is None:
@@ -218,7 +230,7 @@ class Calibrations:
                 raise
             self._in_force = wanted
 
-    def _apply(self, lease: Lease, versions: dict[CalibrationKind, StoredCalibration]) -> None:
+    def _apply(self, lease: Lease, versions: dict[Key, StoredCalibration]) -> None:
         if self._parts is None:
             return
         supervisor, eye = self._parts
@@ -233,8 +245,10 @@ class Calibrations:
                 values, evidence, stored.error, self.in_force.mechanism, self._settings.geometry
             )
         kind = CalibrationKind(stored.kind)
-        now = self._in_force.get(kind)
-        return Comparison(kind, stored.error, now.error if now else stored.error_in_use)
+        now = self._in_force.get(_key(stored))
+        if isinstance(values, CameraValues) and now is not None:
+            return Comparison(kind, stored.error, now.error)
+        return Comparison(kind, stored.error, stored.error_in_use)
 
     def _require_fit(self, values: CalibrationValues) -> None:
         wanted = self._settings.camera.optics
@@ -254,7 +268,7 @@ class Calibrations:
         return stored
 
     def _counts(self, stored: StoredCalibration) -> bool:
-        now = self._in_force.get(CalibrationKind(stored.kind))
+        now = self._in_force.get(_key(stored))
         return now is not None and now.id == stored.id
 
     def _shown(self, stored: StoredCalibration) -> Calibration:
@@ -278,8 +292,12 @@ class Calibrations:
             listener()
 
 
-def _values_of(versions: dict[CalibrationKind, StoredCalibration]) -> ValuesInForce:
+def _values_of(versions: dict[Key, StoredCalibration]) -> ValuesInForce:
     return ValuesInForce.of(_VALUES.validate_python(one.content) for one in versions.values())
+
+
+def _key(stored: StoredCalibration) -> Key:
+    return CalibrationKind(stored.kind), stored.subject
 
 
 def _evidence_of(stored: StoredCalibration) -> RobotEvidence | None:

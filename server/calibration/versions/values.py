@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from server.config.camera import CameraSettings
-from server.schema.calibrations import CalibrationValues, CameraValues, RobotValues
+from server.schema.calibrations import CalibrationValues, CameraValues, RobotValues, SocketValues
+from server.schema.vehicles import Vehicle
+from server.storage.calibrations import WHOLE_ROBOT
 from twin.as_built import PlanarAsBuilt
 from twin.camera_mount import CameraMount
 
@@ -24,25 +26,34 @@ class ValuesInForce:
     Attributes:
         camera: None: as configured.
         robot: None: as configured.
+        sockets: Of taught vehicles.
     """
 
     camera: CameraValues | None = None
     robot: RobotValues | None = None
+    sockets: tuple[SocketValues, ...] = ()
 
     @classmethod
     def of(cls, values: Iterable[CalibrationValues]) -> Self:
-        """Of the versions that count, at most one of a kind."""
-        by_kind = {one.kind: one for one in values}
-        camera, robot = by_kind.get("camera"), by_kind.get("robot")
+        """Of the versions that count, at most one of a kind and vehicle."""
+        all_of_them = list(values)
         return cls(
-            camera if isinstance(camera, CameraValues) else None,
-            robot if isinstance(robot, RobotValues) else None,
+            next((one for one in all_of_them if isinstance(one, CameraValues)), None),
+            next((one for one in all_of_them if isinstance(one, RobotValues)), None),
+            tuple(one for one in all_of_them if isinstance(one, SocketValues)),
         )
 
     @property
     def mechanism(self) -> PlanarAsBuilt | None:
         """The built robot; None: as drawn."""
         return self.robot.mechanism if self.robot else None
+
+    def as_taught(self, vehicle: Vehicle) -> Vehicle:
+        """A vehicle with its socket where it was taught, if it was."""
+        for one in self.sockets:
+            if one.vehicle_id == vehicle.id:
+                return vehicle.model_copy(update={"socket": one.socket})
+        return vehicle
 
     def optics(self, configured: CameraSettings) -> CameraModel:
         """The camera's own numbers."""
@@ -55,6 +66,11 @@ class ValuesInForce:
         x, y, z = self.robot.camera_rotation_rad
         turned = {"rotation_x_rad": x, "rotation_y_rad": y, "rotation_z_rad": z}
         return configured.mount.model_copy(update=turned)
+
+
+def subject_of(values: CalibrationValues) -> str:
+    """Of a socket the vehicle; of the robot's own parts ""."""
+    return values.vehicle_id if isinstance(values, SocketValues) else WHOLE_ROBOT
 
 
 def rotation_vector(rotation: NDArray[np.float64]) -> tuple[float, float, float]:

@@ -21,6 +21,7 @@ def figures(seed: int, *, after: bool = True) -> SimulatedCalibration:
         seed=seed,
         before_mm=np.linspace(0.0, 2.0, 101),
         after_mm=np.linspace(0.0, 0.1, 101) if after else None,
+        lateral_mm=0.05 if after else None,
         found=None,
         poses=25,
         trouble="" if after else "The label has moved.",
@@ -66,9 +67,11 @@ def test_one_robot_is_shown_before_and_after(computed: list[int]) -> None:
 
 
 def test_the_summary_counts_what_failed() -> None:
-    document = {"before_mm": [1, 2, 3], "after_mm": [0.1, 0.2, 0.3], "robot_s": 30.0, "poses": 25}
-    text = as_summary([document, {**document, "after_mm": None}])
+    document = {"before_mm": [1, 2, 3], "after_mm": [0.1, 0.2, 0.3], "lateral_mm": 0.04}
+    document |= {"robot_s": 30.0, "poses": 25}
+    text = as_summary([document, {**document, "lateral_mm": None}])
     assert "1 of 2 robots" in text
+    assert "0.040" in text
     assert "0.200" in text
 
 

@@ -509,7 +509,7 @@ export interface paths {
         readonly put?: never;
         /**
          * Begin a routine
-         * @description The robot looks at a label that stands still from 25 places; that takes two minutes.
+         * @description Measure the robot, from 25 looks at a label that stands still, or teach a socket.
          *
          *     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
          *     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
@@ -1622,10 +1622,10 @@ export interface components {
              */
             readonly source: string;
             /** Values */
-            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"];
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
             /**
              * Version
-             * @description Counted from 1, of each kind
+             * @description Counted from 1, of each kind and vehicle
              */
             readonly version: number;
         };
@@ -1670,10 +1670,10 @@ export interface components {
              */
             readonly source: string;
             /** Values */
-            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"];
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
             /**
              * Version
-             * @description Counted from 1, of each kind
+             * @description Counted from 1, of each kind and vehicle
              */
             readonly version: number;
         };
@@ -1688,20 +1688,24 @@ export interface components {
              */
             readonly source: string;
             /** Values */
-            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"];
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
         };
         /**
          * CalibrationKind
-         * @description What is calibrated. Of each kind one version counts, or the configuration.
+         * @description What is calibrated. Of each kind, and of sockets for each vehicle, one version counts.
          * @enum {string}
          */
-        readonly CalibrationKind: "camera" | "robot";
+        readonly CalibrationKind: "camera" | "robot" | "socket";
         /**
          * CalibrationNow
          * @description What counts, and what is being measured.
          */
         readonly CalibrationNow: {
-            /** @default {} */
+            /**
+             * @default {
+             *       "sockets": []
+             *     }
+             */
             readonly in_force?: components["schemas"]["CalibrationsInForce"];
             readonly routine?: components["schemas"]["Routine"] | null;
         };
@@ -1725,6 +1729,11 @@ export interface components {
         readonly CalibrationsInForce: {
             readonly camera?: components["schemas"]["Calibration"] | null;
             readonly robot?: components["schemas"]["Calibration"] | null;
+            /**
+             * Sockets
+             * @description Of taught vehicles
+             */
+            readonly sockets?: readonly components["schemas"]["Calibration"][];
         };
         /**
          * CameraModel
@@ -3027,7 +3036,8 @@ export interface components {
              * @default {
              *       "in_force": {
              *         "camera": null,
-             *         "robot": null
+             *         "robot": null,
+             *         "sockets": []
              *       },
              *       "routine": null
              *     }
@@ -3714,6 +3724,31 @@ export interface components {
          */
         readonly RobotMode: "offline" | "off" | "not_homed" | "homing" | "ready" | "moving" | "stopping" | "stopped" | "emergency_stop" | "fault";
         /**
+         * RobotRoutineRequest
+         * @description Measure the robot: 25 looks at the label of a vehicle that stands still.
+         */
+        readonly RobotRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "robot";
+            /**
+             * Label Sigma Mm
+             * @description How exactly the side of the printed label was measured
+             * @default 0.15
+             */
+            readonly label_sigma_mm?: number;
+            readonly left_belt?: components["schemas"]["BeltReading"] | null;
+            /** @description Without both the scale of everything is known to a quarter percent only */
+            readonly right_belt?: components["schemas"]["BeltReading"] | null;
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
          * RobotValues
          * @description The mechanism, and how the camera on it is turned.
          *
@@ -3748,6 +3783,11 @@ export interface components {
          */
         readonly RollBack: {
             readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Vehicle Id
+             * @description Of a socket: whose
+             */
+            readonly vehicle_id?: string | null;
         };
         /**
          * Routine
@@ -3776,9 +3816,9 @@ export interface components {
             readonly done: number;
             /**
              * Kind
-             * @constant
+             * @enum {string}
              */
-            readonly kind: "robot";
+            readonly kind: "robot" | "socket";
             /** Looks */
             readonly looks: readonly components["schemas"]["RoutineLook"][];
             /** @description Why it stands still, or has failed */
@@ -3809,32 +3849,6 @@ export interface components {
             readonly x_mm: number;
             /** Y Mm */
             readonly y_mm: number;
-        };
-        /**
-         * RoutineRequest
-         * @description Begin a routine: 25 looks at the label of a vehicle that stands still.
-         */
-        readonly RoutineRequest: {
-            /**
-             * Kind
-             * @default robot
-             * @constant
-             */
-            readonly kind?: "robot";
-            /**
-             * Label Sigma Mm
-             * @description How exactly the side of the printed label was measured
-             * @default 0.15
-             */
-            readonly label_sigma_mm?: number;
-            readonly left_belt?: components["schemas"]["BeltReading"] | null;
-            /** @description Without both the scale of everything is known to a quarter percent only */
-            readonly right_belt?: components["schemas"]["BeltReading"] | null;
-            /**
-             * Vehicle Id
-             * @description Not needed where there is only one
-             */
-            readonly vehicle_id?: string | null;
         };
         /**
          * Scope
@@ -3991,6 +4005,44 @@ export interface components {
              * @default 0
              */
             readonly z_mm?: number;
+        };
+        /**
+         * SocketRoutineRequest
+         * @description Teach a socket: the plug has been brought all the way in, by jogging or by a job.
+         *
+         *     The robot looks, draws the plug out along its axis, and looks again. It moves nowhere else.
+         */
+        readonly SocketRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "socket";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * SocketValues
+         * @description Where the socket of one vehicle is beside its label, as taught with this robot.
+         *
+         *     It takes the place of what the vehicle's settings say.
+         */
+        readonly SocketValues: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "socket";
+            readonly socket: components["schemas"]["SocketOffset"];
+            /**
+             * Vehicle Id
+             * @description Chosen by the owner; stands in the QR label
+             * @example zoe
+             */
+            readonly vehicle_id: string;
         };
         /**
          * Station
@@ -5964,7 +6016,8 @@ export interface operations {
                      *             }
                      *           },
                      *           "version": 3
-                     *         }
+                     *         },
+                     *         "sockets": []
                      *       },
                      *       "routine": {
                      *         "begun_at": "2026-03-01T18:02:11.400Z",
@@ -6055,7 +6108,8 @@ export interface operations {
                      *             }
                      *           },
                      *           "version": 3
-                     *         }
+                     *         },
+                     *         "sockets": []
                      *       },
                      *       "routine": {
                      *         "begun_at": "2026-03-01T18:02:11.400Z",
@@ -6100,22 +6154,7 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
-                /**
-                 * @example {
-                 *       "kind": "robot",
-                 *       "label_sigma_mm": 0.1,
-                 *       "left_belt": {
-                 *         "commanded_mm": 300,
-                 *         "measured_mm": 300.7
-                 *       },
-                 *       "right_belt": {
-                 *         "commanded_mm": 300,
-                 *         "measured_mm": 299.4
-                 *       },
-                 *       "vehicle_id": "zoe"
-                 *     }
-                 */
-                readonly "application/json": components["schemas"]["RoutineRequest"];
+                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"];
             };
         };
         readonly responses: {

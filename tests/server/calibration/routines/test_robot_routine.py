@@ -12,9 +12,10 @@ from server.calibration.routines.errors import NoRoutineError, RoutineRunningErr
 from server.config.settings import Settings
 from server.control.errors import ControlBusyError
 from server.jobs.model import JobType
-from server.schema.routines import Routine, RoutineRequest
+from server.schema.routines import RobotRoutineRequest, Routine
 from server.schema.vehicles import VehicleSettings
-from server.simulated_calibration import before_calibration, technicians_request, tip_errors_mm
+from server.simulated_calibration import before_calibration, tip_errors_mm
+from server.simulated_technician import SimulatedTechnician
 from tests.support.api import on_api, problem
 from tests.support.garage import Scene, on_scene, shift_car
 
@@ -34,7 +35,7 @@ def shown(scene: Scene) -> Routine:
 
 
 async def begin(scene: Scene) -> None:
-    await scene.services.routines.begin(RoutineRequest(), "Anna")
+    await scene.services.routines.begin(RobotRoutineRequest(), "Anna")
 
 
 async def until_done(scene: Scene, looks: int) -> None:
@@ -54,7 +55,8 @@ def test_a_badly_built_robot_becomes_accurate(seed: int) -> None:
     async def scenario(scene: Scene) -> None:
         services, world = scene.services, scene.garage.world
         supervisor, geometry = services.supervisor, services.settings.geometry
-        await services.routines.begin(technicians_request(world, seed), "Anna")
+        technician = SimulatedTechnician(services, world, np.random.default_rng(seed))
+        await services.routines.begin(technician.request(), "Anna")
         with pytest.raises(RoutineRunningError):
             await begin(scene)
         with pytest.raises(ControlBusyError):
@@ -173,7 +175,7 @@ def test_another_cars_label_is_named() -> None:
         services = scene.services
         zoe = VehicleSettings(name="Zoe")
         await services.vehicles.put("zoe", zoe)
-        await services.routines.begin(RoutineRequest(vehicle_id="zoe"), "Anna")
+        await services.routines.begin(RobotRoutineRequest(vehicle_id="zoe"), "Anna")
         await services.routines.wait()
         routine = shown(scene)
         assert routine.state == "interrupted"
@@ -187,9 +189,11 @@ def test_another_cars_label_is_named() -> None:
 def test_cancelling_brings_the_robot_to_rest_and_keeps_nothing() -> None:
     async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
         problem(await client.post("calibrations/routine/cancel"), 409, "calibration_none")
-        unknown = await client.post("calibrations/routine", json={"vehicle_id": "nobody"})
+        unknown = await client.post(
+            "calibrations/routine", json={"kind": "robot", "vehicle_id": "nobody"}
+        )
         problem(unknown, 404, "unknown_vehicle")
-        begun = await client.post("calibrations/routine", json={})
+        begun = await client.post("calibrations/routine", json={"kind": "robot"})
         assert begun.status_code == 202
         assert begun.json()["state"] == "running"
         await until_done(scene, 4)

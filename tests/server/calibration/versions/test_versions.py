@@ -152,7 +152,7 @@ def test_nothing_changes_while_a_job_runs_or_the_plug_is_held() -> None:
         with pytest.raises(CalibrationHeldError):
             await calibrations.activate(kept.id, by="Anna", accept_worse=False)
         assert mechanism(scene) is None
-        assert calibrations.versions_in_force == {}
+        assert calibrations.versions_in_force == []
 
     on_scene(scenario)
 
