@@ -42,6 +42,7 @@ from server.recordings.store import RecordingStore
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
 from server.simulated_car import SimulatedCar
+from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.plug import StoredPlug
@@ -129,6 +130,7 @@ async def running(
             supervisor.telemetry,
         )
         calibrations.apply_to(supervisor, eye)
+        accuracy_checks = AccuracyCheckStore(database)
         routines = RoutineDesk(
             supervisor=supervisor,
             eye=eye,
@@ -136,6 +138,7 @@ async def running(
             calibrations=calibrations,
             settings=settings,
             calendar=calendar,
+            checks=accuracy_checks,
         )
         runner = JobRunner(
             supervisor=supervisor,
@@ -205,6 +208,7 @@ async def running(
             live=live,
             calibrations=calibrations,
             routines=routines,
+            accuracy_checks=accuracy_checks,
             divergence=divergence,
             guide=guide,
             recordings=recordings,

@@ -24,6 +24,7 @@ from server.live.station_watch import StationWatch
 from server.recordings.playbacks import Playbacks
 from server.recordings.store import RecordingStore
 from server.simulated_car import SimulatedCar
+from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
@@ -52,6 +53,7 @@ class Services:
         live: Pushes what changes.
         calibrations: What is known of this very robot.
         routines: Measures it.
+        accuracy_checks: How exactly it went where it was sent.
         divergence: Runs the model beside the robot.
         guide: Tells arriving drivers how far to go.
         recordings: What was recorded of jobs.
@@ -80,6 +82,7 @@ class Services:
     live: LiveHub
     calibrations: Calibrations
     routines: RoutineDesk
+    accuracy_checks: AccuracyCheckStore
     divergence: DivergenceWatcher
     guide: Guide
     recordings: RecordingStore

@@ -62,6 +62,7 @@ OPERATIONS: Mapping[str, Need] = {
     "listCalibrations": Need.READ,
     "getCalibration": Need.READ,
     "getCalibrationNow": Need.READ,
+    "listAccuracyChecks": Need.READ,
     "keepCalibration": Need.SERVICE,
     "activateCalibration": Need.SERVICE,
     "rollBackCalibration": Need.SERVICE,

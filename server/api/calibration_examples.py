@@ -80,10 +80,38 @@ _ROUTINE: dict[str, Json] = {
     "begun_by": "Anna",
     "begun_at": "2026-03-01T18:02:11.400Z",
     "calibration_id": CALIBRATION_ID,
+    "check_id": None,
     "problem": None,
 }
 
 CALIBRATION_MODELS: dict[str, Json] = {
+    "AccuracyCheckPage": {
+        "items": [
+            {
+                "id": "01957a44-5b10-7c1e-8a37-92d6f0b41c58",
+                "made_at": "2026-03-01T18:09:40.000Z",
+                "made_by": "Anna",
+                "calibration_id": CALIBRATION_ID,
+                "approaches": 3,
+                "places": [
+                    {
+                        "x_mm": 650.0,
+                        "y_mm": 335.0,
+                        "accuracy_mm": 0.031,
+                        "repeatability_mm": 0.094,
+                        "direction_variation_mm": 0.058,
+                        "attained_mm": [[649.97, 335.02], [650.03, 335.04]],
+                    }
+                ],
+                "left_out": 0,
+                "accuracy_mm": 0.031,
+                "repeatability_mm": 0.094,
+                "direction_variation_mm": 0.058,
+                "duration_s": 141.2,
+            }
+        ],
+        "next_cursor": None,
+    },
     "Activation": {"accept_worse": False},
     "Calibration": _CALIBRATION,
     "CalibrationDetail": {**_CALIBRATION, "evidence": _EVIDENCE},
@@ -109,6 +137,10 @@ CALIBRATION_REQUESTS: dict[str, dict[str, Json]] = {
                 "right_belt": {"commanded_mm": 300, "measured_mm": 299.4},
                 "label_sigma_mm": 0.1,
             },
+        },
+        "check": {
+            "summary": "Check the robot at nine places",
+            "value": {"kind": "check", "vehicle_id": "zoe", "approaches": 3},
         },
         "socket": {
             "summary": "Teach the socket that the plug is in",

@@ -52,7 +52,19 @@ class SocketRoutineRequest(Wire):
     vehicle_id: LabelOwner = None
 
 
-RoutineRequest = Annotated[RobotRoutineRequest | SocketRoutineRequest, Field(discriminator="kind")]
+class CheckRoutineRequest(Wire):
+    """Check how exactly the robot goes where it is sent, in the terms of ISO 9283."""
+
+    kind: Literal["check"] = "check"
+    vehicle_id: LabelOwner = None
+    approaches: Annotated[int, Field(ge=3, le=30)] = Field(
+        3, description="Of each of nine places, from each of two directions"
+    )
+
+
+RoutineRequest = Annotated[
+    RobotRoutineRequest | SocketRoutineRequest | CheckRoutineRequest, Field(discriminator="kind")
+]
 
 
 class RoutineLook(Wire):
@@ -66,7 +78,7 @@ class RoutineLook(Wire):
 class Routine(Wire):
     """The routine under way, or the last one."""
 
-    kind: Literal["robot", "socket"]
+    kind: Literal["robot", "socket", "check"]
     state: Literal["running", "interrupted", "finished", "failed", "cancelled"] = Field(
         description="An interrupted one can be resumed where it was"
     )
@@ -77,6 +89,7 @@ class Routine(Wire):
     begun_by: str
     begun_at: Timestamp
     calibration_id: str | None = Field(description="What came of it; nobody uses it yet")
+    check_id: str | None = Field(default=None, description="The check that was made")
     problem: Problem | None = Field(description="Why it stands still, or has failed")
 
 

@@ -47,3 +47,13 @@ class CalibrationUseRow(Base):
     by: Mapped[str] = mapped_column(String(100))
     undone_at: Mapped[datetime | None]
     undone_by: Mapped[str | None] = mapped_column(String(100))
+
+
+class AccuracyCheckRow(Base):
+    """A nine-point check."""
+
+    __tablename__ = "accuracy_checks"
+
+    id: Mapped[str] = mapped_column(String(36), primary_key=True)
+    made_at: Mapped[datetime]
+    content: Mapped[dict[str, Any]]

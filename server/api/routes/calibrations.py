@@ -12,6 +12,7 @@ from server.api.pagination import Cursor, Limit, id_in, split_page
 from server.api.problems import problem_responses
 from server.calibration.versions.service import NewCalibration
 from server.calibration.view import calibration_view
+from server.schema.accuracy import AccuracyCheckPage
 from server.schema.calibrations import (
     Activation,
     Calibration,
@@ -63,6 +64,21 @@ async def keep_calibration(
     kept = await services.calibrations.keep(new)
     response.headers["Location"] = f"/api/v1/calibrations/{kept.id}"
     return kept
+
+
+@router.get(
+    "/checks",
+    operation_id="listAccuracyChecks",
+    summary="List nine-point checks",
+    responses=problem_responses(400),
+)
+async def list_checks(
+    services: ServicesDep, cursor: Cursor = None, limit: Limit = 20
+) -> AccuracyCheckPage:
+    """How exactly the robot went where it was sent, newest first."""
+    found = await services.accuracy_checks.page(before=id_in(cursor), limit=limit)
+    page, last = split_page(found, limit)
+    return AccuracyCheckPage(items=page, next_cursor=last.id if last else None)
 
 
 @router.get("/now", operation_id="getCalibrationNow", summary="Read what is in force")

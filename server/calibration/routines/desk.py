@@ -9,6 +9,8 @@ from datetime import datetime
 from typing import Literal
 
 from server.calibration.robot.errors import RobotCalibrationError
+from server.calibration.routines.check_record import check_of
+from server.calibration.routines.check_routine import CheckResult, CheckRoutine
 from server.calibration.routines.errors import (
     AxesSwappedError,
     LabelMovedError,
@@ -20,7 +22,7 @@ from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_routine import RobotRoutine
 from server.calibration.routines.socket_routine import SocketRoutine
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import HOLDER, Calibrations
+from server.calibration.versions.service import HOLDER, Calibrations, NewCalibration
 from server.config.settings import Settings
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
@@ -28,14 +30,20 @@ from server.errors import InternalError, PlugPilotError
 from server.jobs.errors import UnknownVehicleError, VehicleChoiceError
 from server.localisation.eye import Eye
 from server.schema.problem import problem_from
-from server.schema.routines import Routine, RoutineRequest, SocketRoutineRequest
+from server.schema.routines import (
+    CheckRoutineRequest,
+    Routine,
+    RoutineRequest,
+    SocketRoutineRequest,
+)
 from server.schema.vehicles import Vehicle
+from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.vehicles import VehicleStore
 from server.timing import Calendar
 
 _log = logging.getLogger(__name__)
 
-AnyRoutine = RobotRoutine | SocketRoutine
+AnyRoutine = RobotRoutine | SocketRoutine | CheckRoutine
 
 State = Literal["running", "interrupted", "finished", "failed", "cancelled"]
 
@@ -53,6 +61,7 @@ class RoutineDesk:
         calibrations: Keeps what comes of it.
         settings: The whole configuration.
         calendar: Dates.
+        checks: Keeps nine-point checks.
     """
 
     def __init__(
@@ -64,6 +73,7 @@ class RoutineDesk:
         calibrations: Calibrations,
         settings: Settings,
         calendar: Calendar,
+        checks: AccuracyCheckStore,
     ) -> None:
         self._supervisor = supervisor
         self._eye = eye
@@ -78,6 +88,8 @@ class RoutineDesk:
         self._begun_at: datetime = calendar.now()
         self._problem: PlugPilotError | None = None
         self._kept: str | None = None
+        self._check: str | None = None
+        self._checks = checks
         self._task: asyncio.Task[None] | None = None
 
     @property
@@ -96,6 +108,7 @@ class RoutineDesk:
             begun_by=self._routine.by,
             begun_at=self._begun_at,
             calibration_id=self._kept,
+            check_id=self._check,
             problem=problem_from(self._problem) if self._problem else None,
         )
 
@@ -117,7 +130,8 @@ class RoutineDesk:
         lease = self._supervisor.acquire("calibration", HOLDER)
         self._routine = _routine(request, by, vehicle)
         self._progress = Progress(self._changed)
-        self._begun_at, self._kept = self._calendar.now(), None
+        self._begun_at = self._calendar.now()
+        self._kept = self._check = None
         return self._go_on(self._routine, lease)
 
     async def resume(self) -> Routine:
@@ -177,8 +191,8 @@ class RoutineDesk:
             as_taught=self._calibrations.as_taught,
         )
         try:
-            new = await routine.run(stand, self._progress)
-            kept = await self._calibrations.keep(new)
+            found = await routine.run(stand, self._progress)
+            await self._keep(found)
         except PlugPilotError as error:
             _log.warning("the calibration stands still: %s", error.detail)
             self._problem = error
@@ -188,9 +202,18 @@ class RoutineDesk:
             self._problem = InternalError("The calibration broke down. The log says why.")
             self._state = "failed"
         else:
-            self._kept, self._state = kept.id, "finished"
-            self._progress.doing = "The calibration is done. Nobody uses it yet."
+            self._state = "finished"
         self._changed()
+
+    async def _keep(self, found: NewCalibration | CheckResult) -> None:
+        if isinstance(found, CheckResult):
+            check = check_of(found, self._calendar.now(), self._calibrations.robot_in_force)
+            await self._checks.add(check)
+            self._check = check.id
+            self._progress.doing = "The check is done."
+        else:
+            self._kept = (await self._calibrations.keep(found)).id
+            self._progress.doing = "The calibration is done. Nobody uses it yet."
 
     async def _end_task(self) -> None:
         if self._task is not None:
@@ -221,6 +244,8 @@ class RoutineDesk:
 
 
 def _routine(request: RoutineRequest, by: str, vehicle: Vehicle) -> AnyRoutine:
+    if isinstance(request, CheckRoutineRequest):
+        return CheckRoutine(request, by, vehicle)
     if isinstance(request, SocketRoutineRequest):
         return SocketRoutine(request, by, vehicle)
     return RobotRoutine(request, by, vehicle)

@@ -81,11 +81,12 @@ class Stand:
             raise LabelLostError("The label was seen, but not from where it should be best seen.")
         return centred
 
-    async def go(self, platform_mm: Array) -> None:
+    async def go(self, platform_mm: Array, run_up_mm: float = -TAKE_UP_MM) -> None:
         """Move the platform to a place, always from the same side.
 
         Args:
             platform_mm: x and y of V, shape (2,) [mm].
+            run_up_mm: How far both carriages stand from there before the last piece of the way.
 
         Raises:
             ControlError: it cannot get there.
@@ -96,12 +97,12 @@ class Stand:
             rho1_mm, rho2_mm = alpha.inverse(geometry, PlatformPosition(x_mm, y_mm))
         except KinematicsError as error:
             raise MotionOutOfReachError(str(error)) from error
-        await self.go_joints(JointPosition(rho1_mm, rho2_mm, geometry.rho3.min_mm))
+        await self.go_joints(JointPosition(rho1_mm, rho2_mm, geometry.rho3.min_mm), run_up_mm)
 
-    async def go_joints(self, joints: JointPosition) -> None:
+    async def go_joints(self, joints: JointPosition, run_up_mm: float = -TAKE_UP_MM) -> None:
         """The same, given the joints of the drawing."""
         before = joints._replace(
-            rho1_mm=joints.rho1_mm - TAKE_UP_MM, rho2_mm=joints.rho2_mm - TAKE_UP_MM
+            rho1_mm=joints.rho1_mm + run_up_mm, rho2_mm=joints.rho2_mm + run_up_mm
         )
         await self.supervisor.move_joints(self.lease, before)
         await self.supervisor.move_joints(self.lease, joints)

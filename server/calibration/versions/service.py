@@ -99,6 +99,12 @@ class Calibrations:
         """The versions that count now; what is missing is as configured."""
         return [self._shown(stored) for stored in self._in_force.values()]
 
+    @property
+    def robot_in_force(self) -> str | None:
+        """Id of the calibration of the robot that counts; None: as drawn."""
+        stored = self._in_force.get((CalibrationKind.ROBOT, WHOLE_ROBOT))
+        return stored.id if stored else None
+
     def as_taught(self, vehicle: Vehicle) -> Vehicle:
         """A vehicle with its socket where it was taught, if it was."""
         return self.in_force.as_taught(vehicle)

@@ -456,6 +456,26 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations/checks": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List nine-point checks
+         * @description How exactly the robot went where it was sent, newest first.
+         */
+        readonly get: operations["listAccuracyChecks"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/calibrations/now": {
         readonly parameters: {
             readonly query?: never;
@@ -1470,6 +1490,72 @@ export interface components {
             readonly screen: boolean;
         };
         /**
+         * AccuracyCheck
+         * @description A nine-point check. Places without a label in the picture are left out.
+         */
+        readonly AccuracyCheck: {
+            /**
+             * Accuracy Mm
+             * @description The largest AP
+             */
+            readonly accuracy_mm: number;
+            /**
+             * Approaches
+             * @description Of each place from each of two directions
+             */
+            readonly approaches: number;
+            /**
+             * Calibration Id
+             * @description The calibration of the robot that was in force; null: as drawn
+             */
+            readonly calibration_id: string | null;
+            /**
+             * Direction Variation Mm
+             * @description The largest vAP
+             */
+            readonly direction_variation_mm: number;
+            /**
+             * Duration S
+             * @description Robot time
+             */
+            readonly duration_s: number;
+            /** Id */
+            readonly id: string;
+            /**
+             * Left Out
+             * @description Places from which the label was not to be seen
+             */
+            readonly left_out: number;
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /** Places */
+            readonly places: readonly components["schemas"]["CheckedPlace"][];
+            /**
+             * Repeatability Mm
+             * @description The largest RP
+             */
+            readonly repeatability_mm: number;
+        };
+        /**
+         * AccuracyCheckPage
+         * @description Checks, newest first.
+         */
+        readonly AccuracyCheckPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["AccuracyCheck"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
          * Activation
          * @description Put a version in force.
          */
@@ -1877,6 +1963,64 @@ export interface components {
              * @description When the station was read; null: never yet
              */
             readonly updated_at: string | null;
+        };
+        /**
+         * CheckedPlace
+         * @description One place of the check, in the terms of ISO 9283.
+         */
+        readonly CheckedPlace: {
+            /**
+             * Accuracy Mm
+             * @description AP: how far the mean of all approaches is off
+             */
+            readonly accuracy_mm: number;
+            /**
+             * Attained Mm
+             * @description Where it came to; first all from below, then as many from above
+             */
+            readonly attained_mm: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Direction Variation Mm
+             * @description vAP: between the means of the two directions, which is mostly play
+             */
+            readonly direction_variation_mm: number;
+            /**
+             * Repeatability Mm
+             * @description RP: mean distance from it plus 3 sigma
+             */
+            readonly repeatability_mm: number;
+            /**
+             * X Mm
+             * @description Where the platform was sent
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
+        /**
+         * CheckRoutineRequest
+         * @description Check how exactly the robot goes where it is sent, in the terms of ISO 9283.
+         */
+        readonly CheckRoutineRequest: {
+            /**
+             * Approaches
+             * @description Of each of nine places, from each of two directions
+             * @default 3
+             */
+            readonly approaches?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "check";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
         };
         readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
@@ -3808,6 +3952,11 @@ export interface components {
              */
             readonly calibration_id: string | null;
             /**
+             * Check Id
+             * @description The check that was made
+             */
+            readonly check_id?: string | null;
+            /**
              * Doing
              * @description In a sentence
              */
@@ -3818,7 +3967,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            readonly kind: "robot" | "socket";
+            readonly kind: "robot" | "socket" | "check";
             /** Looks */
             readonly looks: readonly components["schemas"]["RoutineLook"][];
             /** @description Why it stands still, or has failed */
@@ -5965,6 +6114,75 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly listAccuracyChecks: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "accuracy_mm": 0.031,
+                     *           "approaches": 3,
+                     *           "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "direction_variation_mm": 0.058,
+                     *           "duration_s": 141.2,
+                     *           "id": "01957a44-5b10-7c1e-8a37-92d6f0b41c58",
+                     *           "left_out": 0,
+                     *           "made_at": "2026-03-01T18:09:40.000Z",
+                     *           "made_by": "Anna",
+                     *           "places": [
+                     *             {
+                     *               "accuracy_mm": 0.031,
+                     *               "attained_mm": [
+                     *                 [
+                     *                   649.97,
+                     *                   335.02
+                     *                 ],
+                     *                 [
+                     *                   650.03,
+                     *                   335.04
+                     *                 ]
+                     *               ],
+                     *               "direction_variation_mm": 0.058,
+                     *               "repeatability_mm": 0.094,
+                     *               "x_mm": 650,
+                     *               "y_mm": 335
+                     *             }
+                     *           ],
+                     *           "repeatability_mm": 0.094
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AccuracyCheckPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getCalibrationNow: {
         readonly parameters: {
             readonly query?: never;
@@ -6023,6 +6241,7 @@ export interface operations {
                      *         "begun_at": "2026-03-01T18:02:11.400Z",
                      *         "begun_by": "Anna",
                      *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "check_id": null,
                      *         "doing": "The calibration is done. Nobody uses it yet.",
                      *         "done": 25,
                      *         "kind": "robot",
@@ -6115,6 +6334,7 @@ export interface operations {
                      *         "begun_at": "2026-03-01T18:02:11.400Z",
                      *         "begun_by": "Anna",
                      *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "check_id": null,
                      *         "doing": "The calibration is done. Nobody uses it yet.",
                      *         "done": 25,
                      *         "kind": "robot",
@@ -6154,7 +6374,7 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
-                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"];
+                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"];
             };
         };
         readonly responses: {
@@ -6169,6 +6389,7 @@ export interface operations {
                      *       "begun_at": "2026-03-01T18:02:11.400Z",
                      *       "begun_by": "Anna",
                      *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
                      *       "doing": "The calibration is done. Nobody uses it yet.",
                      *       "done": 25,
                      *       "kind": "robot",
@@ -6219,6 +6440,7 @@ export interface operations {
                      *       "begun_at": "2026-03-01T18:02:11.400Z",
                      *       "begun_by": "Anna",
                      *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
                      *       "doing": "The calibration is done. Nobody uses it yet.",
                      *       "done": 25,
                      *       "kind": "robot",
@@ -6264,6 +6486,7 @@ export interface operations {
                      *       "begun_at": "2026-03-01T18:02:11.400Z",
                      *       "begun_by": "Anna",
                      *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
                      *       "doing": "The calibration is done. Nobody uses it yet.",
                      *       "done": 25,
                      *       "kind": "robot",

@@ -43,3 +43,9 @@ def upgrade() -> None:
         sa.ForeignKeyConstraint(["calibration_id"], ["calibrations.id"]),
     )
     op.create_index("calibration_uses_by_kind", "calibration_uses", ["kind", "subject"])
+    op.create_table(
+        "accuracy_checks",
+        sa.Column("id", sa.String(36), primary_key=True),
+        sa.Column("made_at", sa.DateTime(), nullable=False),
+        sa.Column("content", sa.JSON(), nullable=False),
+    )
