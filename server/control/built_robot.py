@@ -15,7 +15,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from drivers.robot import CommandedJoints, MeasuredJoints, RobotState
-from server.control.errors import MotionOutOfReachError
+from server.control.errors import CalibrationUnusableError, MotionOutOfReachError
 from twin.as_built import CorrectedPlan, JointCorrection, PlanarAsBuilt
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition, JointVelocity
@@ -25,6 +25,12 @@ from twin.motion.check import LIMIT_TOLERANCE_MM
 from twin.motion.segments import Segment
 
 CHECK_PERIOD_S = 0.01
+SLOWEST_SHARE = 0.5
+"""Of the board's speed. A robot that must be slower than that is none like the drawn one."""
+FURTHEST_OFF_MM = 60.0
+"""A carriage of a robot like the drawn one is nowhere further from where the drawing has it."""
+STANDS_SHARE = 0.9
+"""Of the places where the drawn robot can stand, where the built one must."""
 _GRID = 12
 """Places along each carriage where the ratio of the speeds is looked at."""
 
@@ -56,11 +62,21 @@ class BuiltRobot:
 
     @classmethod
     def of(cls, drawn: RobotGeometry, mechanism: PlanarAsBuilt | None) -> Self:
-        """The robot with a calibrated mechanism, or as drawn without one."""
+        """The robot with a calibrated mechanism, or as drawn without one.
+
+        Raises:
+            CalibrationUnusableError: no robot like the drawn one is built like that.
+        """
         if mechanism is None:
             return cls()
         correction = JointCorrection(drawn, mechanism)
-        return cls(correction, min(1.0, 1.0 / _fastest(correction)))
+        speed_share = 1.0 / _fastest(correction)
+        if not speed_share >= SLOWEST_SHARE:  # also NaN
+            raise CalibrationUnusableError(
+                "A robot with these numbers would have to move its carriages quite differently "
+                "from the drawn one, or could not stand where that one can."
+            )
+        return cls(correction, min(1.0, speed_share))
 
     def limits(self, of_board: MotionLimits) -> MotionLimits:
         """What motions are planned with."""
@@ -137,6 +153,7 @@ def _fastest(correction: JointCorrection) -> float:
     """The most that a carriage of the board moves while those of the drawing move by 1.
 
     Wherever a plan may go, with both moving as they please: the largest sum of a row of the rates.
+    Infinite where the built robot can often not stand at all.
     """
     drawn = correction.drawn
     axes = [np.linspace(travel.min_mm, travel.max_mm, _GRID) for travel in (drawn.rho1, drawn.rho2)]
@@ -145,6 +162,13 @@ def _fastest(correction: JointCorrection) -> float:
     measures = singularity.measures_many(drawn, joints)
     # NaN, where no pose exists, compares false
     regular = np.all(measures >= singularity.thresholds(singularity.SingularityLimits()), axis=1)
-    joints = joints[regular & np.isfinite(correction.to_board_many(joints)).all(axis=1)]
-    rates = correction.rates_many(joints)
-    return float(np.nanmax(np.abs(rates[:, :2, :2]).sum(axis=2)))
+    joints = joints[regular]
+    excess_mm = correction.to_board_many(joints)[:, :2] - joints[:, :2]
+    stands = np.all(np.abs(excess_mm) < FURTHEST_OFF_MM, axis=1)  # NaN compares false
+    if np.mean(stands) < STANDS_SHARE:
+        return math.inf
+    try:
+        rates = correction.rates_many(joints[stands])
+    except np.linalg.LinAlgError:  # a leg that lies across its rail
+        return math.inf
+    return float(np.max(np.abs(rates[:, :2, :2]).sum(axis=2)))

@@ -16,6 +16,7 @@ ControlError
 ├── MotionRefusedError           the board refused the motion
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
 ├── CalibrationHeldError         the same, and the calibration was to be changed
+├── CalibrationUnusableError     no robot like the drawn one is built like that
 ├── MotionOutOfReachError        joint limit, workspace or singularity
 ├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
 ├── ForceLimitError              the force along the insertion axis went over its limit
@@ -170,6 +171,14 @@ class CalibrationHeldError(ControlError):
     code = "calibration_held"
     title = "The calibration cannot be changed now"
     remedy = "Unplug first. If the plug hangs free, confirm that on the page."
+
+
+class CalibrationUnusableError(ControlError):
+    """The numbers of a calibration belong to no robot like the drawn one."""
+
+    code = "calibration_unusable"
+    title = "The robot cannot move with this calibration"
+    remedy = "Calibrate the robot again, or correct the numbers."
 
 
 class MotionOutOfReachError(ControlError):

@@ -275,6 +275,7 @@ class Supervisor(Mover):
         Raises:
             CalibrationHeldError: the plug is, or may be, in a socket, and its way out is known in
                 the joints that count now.
+            CalibrationUnusableError: no robot like the drawn one is built like that.
         """
         lease.require()
         if self.plug.state in HELD:

@@ -13,7 +13,12 @@ import pytest
 from drivers.robot import MeasuredJoints
 from drivers.simulator.parameters import BuildErrors
 from server.control.built_robot import BuiltRobot
-from server.control.errors import CalibrationHeldError, ControlLostError, MotionOutOfReachError
+from server.control.errors import (
+    CalibrationHeldError,
+    CalibrationUnusableError,
+    ControlLostError,
+    MotionOutOfReachError,
+)
 from server.control.model import PlugState
 from server.control.plug_guard import Corridor, PlugRecord
 from tests.support.robot_cell import AWAY, GEOMETRY, HOME, LIMITS, MemoryPlug, RobotCell, in_cell
@@ -243,3 +248,18 @@ def test_the_map_and_its_velocities_go_both_ways() -> None:
         back = correction.velocity_from_board(place, velocity)
         rates = correction.rates_many(np.array([drawn]))[0]
         np.testing.assert_allclose(rates @ np.array(back), velocity, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        {"left_leg_mm": 50.0},
+        {"right_foot_y_mm": 5000.0},
+        {"left_scale": 0.8, "right_rail_rad": 0.2, "left_rail_rad": -0.2},
+        {"left_foot_x_mm": 9000.0},
+    ],
+)
+def test_numbers_of_no_robot_like_this_are_refused(numbers: dict[str, float]) -> None:
+    mechanism = PlanarAsBuilt.as_drawn(GEOMETRY).model_copy(update=numbers)
+    with pytest.raises(CalibrationUnusableError):
+        BuiltRobot.of(GEOMETRY, mechanism)
