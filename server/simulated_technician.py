@@ -83,16 +83,17 @@ class SimulatedTechnician:
         socket = self.world.car.T_base_socket
         beside_mm = self.rng.normal(0.0, GUIDED_TO_MM, 2)
         platform = np.array([geometry.regular_box.center_x_mm, geometry.regular_box.center_y_mm])
-        rho3_mm = geometry.rho3.min_mm
+        face_mm = geometry.rho3.min_mm  # of the slide, once the tip is level with it
         for _ in range(_ROUNDS):
-            drawn = np.array([*alpha.inverse_many(geometry, platform), rho3_mm])
+            drawn = np.array([*alpha.inverse_many(geometry, platform), face_mm])
             board = built.correction.to_board_many(drawn) if built.correction else drawn
             pierced_mm, before_mm = _aim(self.world.plant, board, socket)
             platform = platform - pierced_mm[:2] + beside_mm
-        mated = float(rho3_mm + before_mm + depth_mm)
+            face_mm += before_mm
+        mated = face_mm + depth_mm
         rho1_mm, rho2_mm, _ = drawn.tolist()
         return (
-            JointPosition(rho1_mm, rho2_mm, rho3_mm),
+            JointPosition(rho1_mm, rho2_mm, geometry.rho3.min_mm),
             JointPosition(rho1_mm, rho2_mm, min(mated, geometry.rho3.max_mm)),
         )
 
