@@ -45,6 +45,8 @@ WIRING = {
     "server.composition",
     "server.serving",
     "server.simulation",
+    "server.simulated_calibration",
+    "server.simulated_technician",
     "server.cli",
 }
 """What puts the parts together; the parts do not know it."""
@@ -68,6 +70,7 @@ FORBIDDEN: dict[str, set[str]] = {
         "twin.motion",
     },
     "server.jobs": {"server.live", *WIRING, "drivers.simulator"},
+    "server.calibration": {"server.api", "server.live", *WIRING, "drivers.simulator"},
     "server.divergence": {"server.live", "server.api", *WIRING, "drivers.simulator"},
     "server.recordings": {"server.api", *WIRING, "drivers.simulator"},
     "server.events": {"server.api", *WIRING, "drivers.simulator"},

@@ -66,6 +66,17 @@ OPERATIONS: Mapping[str, Need] = {
     "streamCamera": Need.READ,
     "inspectCamera": Need.READ,
     "getInspectedPicture": Need.READ,
+    # calibration
+    "listCalibrations": Need.READ,
+    "getCalibration": Need.READ,
+    "getCalibrationNow": Need.READ,
+    "listAccuracyChecks": Need.READ,
+    "keepCalibration": Need.SERVICE,
+    "activateCalibration": Need.SERVICE,
+    "rollBackCalibration": Need.SERVICE,
+    "beginCalibration": Need.SERVICE,
+    "resumeCalibration": Need.SERVICE,
+    "cancelCalibration": Need.SERVICE,
     # arriving cars
     "getGuidance": Need.READ,
     "getSimulatedCar": Need.READ,

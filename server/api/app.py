@@ -17,6 +17,7 @@ from server.api.pages import pages_router
 from server.api.problems import ANY_PROBLEM, install_handlers
 from server.api.routes import (
     access,
+    calibrations,
     camera,
     charge_point,
     config,
@@ -88,6 +89,7 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         charge_point,
         events,
         webhooks,
+        calibrations,
         config,
         diagnostics,
         live,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
+from server.api.calibration_examples import CALIBRATION_MODELS, CALIBRATION_REQUESTS
 from server.api.technician_examples import TECHNICIAN_MODELS
 
 Json = Any
@@ -81,6 +82,7 @@ _DELIVERY: dict[str, Json] = {
 MODELS: dict[str, Json] = {
     **ACCESS_MODELS,
     **TECHNICIAN_MODELS,
+    **CALIBRATION_MODELS,
     "ChargePoint": {
         "cp_state": "C",
         "enabled": True,
@@ -238,6 +240,7 @@ BODIES: dict[str, Json] = {
 """Of requests whose body has no schema of its own name, by operation."""
 
 REQUESTS: dict[str, dict[str, Json]] = {
+    **CALIBRATION_REQUESTS,
     "commandSimulatedCar": {
         "drive_in": {
             "summary": "Come in, 20 cm beside the way, and stop at the place",

@@ -17,6 +17,8 @@ ControlError
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
 ├── PlugSeenInCarError           a person says it is free, the station sees it in a car
 ├── PlugNotSeenError             a person says it is in a car, the station sees none
+├── CalibrationHeldError         the same, and the calibration was to be changed
+├── CalibrationUnusableError     no robot like the drawn one is built like that
 ├── MotionOutOfReachError        joint limit, workspace or singularity
 ├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
 ├── TargetGoneError              nobody wants to go there any more, or not from here
@@ -186,6 +188,22 @@ class PlugNotSeenError(ControlError):
         "Look again. If the plug is in, it is not all the way in: press Unplug, the robot pulls it "
         "straight out. If it hangs free, confirm that on the page."
     )
+
+
+class CalibrationHeldError(ControlError):
+    """The calibration cannot change while the plug is, or may be, in a socket."""
+
+    code = "calibration_held"
+    title = "The calibration cannot be changed now"
+    remedy = "Unplug first. If the plug hangs free, confirm that on the page."
+
+
+class CalibrationUnusableError(ControlError):
+    """The numbers of a calibration belong to no robot like the drawn one."""
+
+    code = "calibration_unusable"
+    title = "The robot cannot move with this calibration"
+    remedy = "Calibrate the robot again, or correct the numbers."
 
 
 class MotionOutOfReachError(ControlError):

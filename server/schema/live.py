@@ -17,6 +17,7 @@ from server.schema.guidance import Guidance
 from server.schema.jobs import Job
 from server.schema.problem import Problem
 from server.schema.robot import JogStep, Robot
+from server.schema.routines import CalibrationNow
 from server.schema.station import Station
 
 PROTOCOL_VERSION: Literal[1] = 1
@@ -58,6 +59,7 @@ class Live(Wire):
     twin: TwinReport = TwinReport()
     guidance: Guidance | None = None
     queue: Queue = Queue()
+    calibration: CalibrationNow = CalibrationNow()
 
 
 class LiveChanges(Wire):
@@ -70,6 +72,7 @@ class LiveChanges(Wire):
     twin: TwinReport | None = None
     guidance: Guidance | None = None
     queue: Queue | None = None
+    calibration: CalibrationNow | None = None
 
 
 class SnapshotMessage(Wire):

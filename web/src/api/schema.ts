@@ -386,6 +386,201 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List calibrations
+         * @description All versions that were ever made, newest first.
+         */
+        readonly get: operations["listCalibrations"];
+        readonly put?: never;
+        /**
+         * Keep numbers from elsewhere
+         * @description Keep numbers that were found elsewhere, such as in a camera file, as a new version.
+         *
+         *     It is not in force, and nobody has measured what it misses.
+         */
+        readonly post: operations["keepCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/{calibration_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read a calibration
+         * @description One version with what it rests on.
+         */
+        readonly get: operations["getCalibration"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/{calibration_id}/activation": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Put a calibration in force
+         * @description Put a version in force. Nothing moves by it.
+         *
+         *     One that is worse than the one in force is refused with how much worse it is, unless that is
+         *     accepted. Refused while a job, or somebody else, uses the robot, and while the plug is in a
+         *     socket.
+         */
+        readonly post: operations["activateCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/checks": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List nine-point checks
+         * @description How exactly the robot went where it was sent, newest first.
+         */
+        readonly get: operations["listAccuracyChecks"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/now": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what is in force
+         * @description The version of each kind that counts now, and the routine under way or the last one.
+         */
+        readonly get: operations["getCalibrationNow"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/roll-back": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go back to the one before
+         * @description Put in force what was in force before: an older version, or what the configuration says.
+         *
+         *     Refused while a job, or somebody else, uses the robot, and while the plug is in a socket.
+         */
+        readonly post: operations["rollBackCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Begin a routine
+         * @description Measure the robot, from 25 looks at a label that stands still, or teach a socket.
+         *
+         *     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
+         *     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
+         */
+        readonly post: operations["beginCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/cancel": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * End the routine
+         * @description The robot comes to rest, and nothing is kept.
+         */
+        readonly post: operations["cancelCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/resume": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go on with the routine
+         * @description Go on where the routine was interrupted.
+         */
+        readonly post: operations["resumeCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/camera/inspection": {
         readonly parameters: {
             readonly query?: never;
@@ -1506,6 +1701,84 @@ export interface components {
             readonly screen: boolean;
         };
         /**
+         * AccuracyCheck
+         * @description A nine-point check. Places without a label in the picture are left out.
+         */
+        readonly AccuracyCheck: {
+            /**
+             * Accuracy Mm
+             * @description The largest AP
+             */
+            readonly accuracy_mm: number;
+            /**
+             * Approaches
+             * @description Of each place from each of two directions
+             */
+            readonly approaches: number;
+            /**
+             * Calibration Id
+             * @description The calibration of the robot that was in force; null: as drawn
+             */
+            readonly calibration_id: string | null;
+            /**
+             * Direction Variation Mm
+             * @description The largest vAP
+             */
+            readonly direction_variation_mm: number;
+            /**
+             * Duration S
+             * @description Robot time
+             */
+            readonly duration_s: number;
+            /** Id */
+            readonly id: string;
+            /**
+             * Left Out
+             * @description Places from which the label was not to be seen
+             */
+            readonly left_out: number;
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /** Places */
+            readonly places: readonly components["schemas"]["CheckedPlace"][];
+            /**
+             * Repeatability Mm
+             * @description The largest RP
+             */
+            readonly repeatability_mm: number;
+        };
+        /**
+         * AccuracyCheckPage
+         * @description Checks, newest first.
+         */
+        readonly AccuracyCheckPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["AccuracyCheck"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
+         * Activation
+         * @description Put a version in force.
+         */
+        readonly Activation: {
+            /**
+             * Accept Worse
+             * @description Also if it is worse than the one in force, or was not measured
+             * @default false
+             */
+            readonly accept_worse?: boolean;
+        };
+        /**
          * ActuatorForce
          * @description What one actuator carries at the worst place of the way.
          */
@@ -1605,6 +1878,25 @@ export interface components {
             readonly times: number;
         };
         /**
+         * BeltReading
+         * @description How far a carriage really went, measured with a rule.
+         */
+        readonly BeltReading: {
+            /**
+             * Commanded Mm
+             * @description By the board's counting, both ends approached from the same side
+             */
+            readonly commanded_mm: number;
+            /** Measured Mm */
+            readonly measured_mm: number;
+            /**
+             * Reading Sigma Mm
+             * @description How exactly each end of the rule was read
+             * @default 0.1
+             */
+            readonly reading_sigma_mm?: number;
+        };
+        /**
          * Brake
          * @description Stop now.
          */
@@ -1614,6 +1906,159 @@ export interface components {
              * @enum {string}
              */
             readonly type: "brake";
+        };
+        /**
+         * Calibration
+         * @description One version. It never changes.
+         */
+        readonly Calibration: {
+            /**
+             * Error
+             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             */
+            readonly error: number | null;
+            /**
+             * Error In Use
+             * @description What the one then in force missed on the same data
+             */
+            readonly error_in_use: number | null;
+            readonly grade: components["schemas"]["Grade"];
+            /** Id */
+            readonly id: string;
+            /** In Force */
+            readonly in_force: boolean;
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks: readonly string[];
+            /**
+             * Source
+             * @description Where its numbers come from, in words
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            /**
+             * Version
+             * @description Counted from 1, of each kind and vehicle
+             */
+            readonly version: number;
+        };
+        /**
+         * CalibrationDetail
+         * @description One version with what it rests on.
+         */
+        readonly CalibrationDetail: {
+            /**
+             * Error
+             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             */
+            readonly error: number | null;
+            /**
+             * Error In Use
+             * @description What the one then in force missed on the same data
+             */
+            readonly error_in_use: number | null;
+            readonly evidence: components["schemas"]["RobotEvidence"] | null;
+            readonly grade: components["schemas"]["Grade"];
+            /** Id */
+            readonly id: string;
+            /** In Force */
+            readonly in_force: boolean;
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks: readonly string[];
+            /**
+             * Source
+             * @description Where its numbers come from, in words
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            /**
+             * Version
+             * @description Counted from 1, of each kind and vehicle
+             */
+            readonly version: number;
+        };
+        /**
+         * CalibrationEntry
+         * @description Numbers from elsewhere, such as a file of `plugpilot calibrate camera`.
+         */
+        readonly CalibrationEntry: {
+            /**
+             * Source
+             * @example camera-0003.toml
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+        };
+        /**
+         * CalibrationKind
+         * @description What is calibrated. Of each kind, and of sockets for each vehicle, one version counts.
+         * @enum {string}
+         */
+        readonly CalibrationKind: "camera" | "robot" | "socket";
+        /**
+         * CalibrationNow
+         * @description What counts, and what is being measured.
+         */
+        readonly CalibrationNow: {
+            /**
+             * @default {
+             *       "sockets": []
+             *     }
+             */
+            readonly in_force?: components["schemas"]["CalibrationsInForce"];
+            readonly routine?: components["schemas"]["Routine"] | null;
+        };
+        /**
+         * CalibrationPage
+         * @description Calibrations, newest first.
+         */
+        readonly CalibrationPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["Calibration"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
+         * CalibrationsInForce
+         * @description What counts now; null: what the configuration says.
+         */
+        readonly CalibrationsInForce: {
+            readonly camera?: components["schemas"]["Calibration"] | null;
+            readonly robot?: components["schemas"]["Calibration"] | null;
+            /**
+             * Sockets
+             * @description Of taught vehicles
+             */
+            readonly sockets?: readonly components["schemas"]["Calibration"][];
         };
         /**
          * CameraInspection
@@ -1672,6 +2117,85 @@ export interface components {
              * @description Of the camera; the picture itself may be sent smaller
              */
             readonly width_px: number;
+        };
+        /**
+         * CameraModel
+         * @description Intrinsics of one camera at one resolution.
+         *
+         *     A point (x, y, 1) in the camera frame (x right, y down, z forward) appears at
+         *     u = fx x_d + cx, v = fy y_d + cy with r^2 = x^2 + y^2 and
+         *     x_d = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2),
+         *     y_d = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y.
+         *     Pixel centres are at integer coordinates: (0, 0) is the centre of the top left pixel.
+         */
+        readonly CameraModel: {
+            /**
+             * Cx
+             * @description [px]
+             */
+            readonly cx: number;
+            /**
+             * Cy
+             * @description [px]
+             */
+            readonly cy: number;
+            /**
+             * Fx
+             * @description [px]
+             */
+            readonly fx: number;
+            /**
+             * Fy
+             * @description [px]
+             */
+            readonly fy: number;
+            /**
+             * Height
+             * @description [px]
+             */
+            readonly height: number;
+            /**
+             * K1
+             * @default 0
+             */
+            readonly k1?: number;
+            /**
+             * K2
+             * @default 0
+             */
+            readonly k2?: number;
+            /**
+             * K3
+             * @default 0
+             */
+            readonly k3?: number;
+            /**
+             * P1
+             * @default 0
+             */
+            readonly p1?: number;
+            /**
+             * P2
+             * @default 0
+             */
+            readonly p2?: number;
+            /**
+             * Width
+             * @description [px]
+             */
+            readonly width: number;
+        };
+        /**
+         * CameraValues
+         * @description The camera's own numbers.
+         */
+        readonly CameraValues: {
+            readonly camera: components["schemas"]["CameraModel"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "camera";
         };
         /**
          * ChargePoint
@@ -1736,6 +2260,64 @@ export interface components {
              * @description When the station was read; null: never yet
              */
             readonly updated_at: string | null;
+        };
+        /**
+         * CheckedPlace
+         * @description One place of the check, in the terms of ISO 9283.
+         */
+        readonly CheckedPlace: {
+            /**
+             * Accuracy Mm
+             * @description AP: how far the mean of all approaches is off
+             */
+            readonly accuracy_mm: number;
+            /**
+             * Attained Mm
+             * @description Where it came to; first all from below, then as many from above
+             */
+            readonly attained_mm: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Direction Variation Mm
+             * @description vAP: between the means of the two directions, which is mostly play
+             */
+            readonly direction_variation_mm: number;
+            /**
+             * Repeatability Mm
+             * @description RP: mean distance from it plus 3 sigma
+             */
+            readonly repeatability_mm: number;
+            /**
+             * X Mm
+             * @description Where the platform was sent
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
+        /**
+         * CheckRoutineRequest
+         * @description Check how exactly the robot goes where it is sent, in the terms of ISO 9283.
+         */
+        readonly CheckRoutineRequest: {
+            /**
+             * Approaches
+             * @description Of each of nine places, from each of two directions
+             * @default 3
+             */
+            readonly approaches?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "check";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
         };
         readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["MoveToMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
@@ -2306,6 +2888,12 @@ export interface components {
                 number
             ];
         };
+        /**
+         * Grade
+         * @description What to do with a calibration; from best to worst.
+         * @enum {string}
+         */
+        readonly Grade: "good" | "usable" | "bad";
         /**
          * Guidance
          * @description What the driver of an arriving car is told.
@@ -3110,6 +3698,17 @@ export interface components {
          * @description Every live section.
          */
         readonly Live: {
+            /**
+             * @default {
+             *       "in_force": {
+             *         "camera": null,
+             *         "robot": null,
+             *         "sockets": []
+             *       },
+             *       "routine": null
+             *     }
+             */
+            readonly calibration?: components["schemas"]["CalibrationNow"];
             /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
@@ -3136,6 +3735,8 @@ export interface components {
          */
         readonly LiveChanges: {
             /** @default null */
+            readonly calibration?: components["schemas"]["CalibrationNow"] | null;
+            /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
             readonly job?: components["schemas"]["Job"] | null;
@@ -3149,6 +3750,47 @@ export interface components {
             readonly station?: components["schemas"]["Station"] | null;
             /** @default null */
             readonly twin?: components["schemas"]["TwinReport"] | null;
+        };
+        /**
+         * LookRecord
+         * @description One look at the label, and how it fits to the calibration.
+         */
+        readonly LookRecord: {
+            /**
+             * Covariance Mm2
+             * @description Of label_mm, row by row
+             */
+            readonly covariance_mm2: readonly number[];
+            /**
+             * Label Mm
+             * @description In the camera frame
+             */
+            readonly label_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Residual Mm
+             * @description Seen less predicted, camera frame
+             */
+            readonly residual_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Rho1 Mm
+             * @description As the board counts
+             */
+            readonly rho1_mm: number;
+            /** Rho2 Mm */
+            readonly rho2_mm: number;
+            /**
+             * Weight
+             * @description 1; less for a look that does not fit
+             */
+            readonly weight: number;
         };
         /**
          * MeasuredMotion
@@ -3476,6 +4118,66 @@ export interface components {
             readonly minor_px: number;
         };
         /**
+         * PlanarAsBuilt
+         * @description Ten numbers of one built robot; `as_drawn` gives those of the drawing.
+         */
+        readonly PlanarAsBuilt: {
+            /**
+             * Left Foot X Mm
+             * @description O1, left foot + L3/2 at rho1 = 0, along x
+             */
+            readonly left_foot_x_mm: number;
+            /**
+             * Left Foot Y Mm
+             * @description O1, along y
+             */
+            readonly left_foot_y_mm: number;
+            /**
+             * Left Leg Mm
+             * @description L1, length of AB
+             */
+            readonly left_leg_mm: number;
+            /**
+             * Left Rail Rad
+             * @description a1, left rail against the x axis
+             * @default 0
+             */
+            readonly left_rail_rad?: number;
+            /**
+             * Left Scale
+             * @description k1, true travel over the board's rho1
+             * @default 1
+             */
+            readonly left_scale?: number;
+            /**
+             * Right Foot X Mm
+             * @description O2, right foot - L3/2 at rho2 = 0, along x
+             */
+            readonly right_foot_x_mm: number;
+            /**
+             * Right Foot Y Mm
+             * @description O2, along y
+             */
+            readonly right_foot_y_mm: number;
+            /**
+             * Right Leg Mm
+             * @description L2, length of CE
+             */
+            readonly right_leg_mm: number;
+            /**
+             * Right Rail Rad
+             * @description a2, right rail against the x axis
+             * @default 0
+             */
+            readonly right_rail_rad?: number;
+            /**
+             * Right Scale
+             * @description k2, true travel over the board's rho2
+             * @default 1
+             */
+            readonly right_scale?: number;
+        };
+        /**
          * Playback
          * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
          */
@@ -3769,6 +4471,31 @@ export interface components {
             readonly updated_at: string;
         };
         /**
+         * RobotEvidence
+         * @description What a calibration of the robot rests on.
+         */
+        readonly RobotEvidence: {
+            /**
+             * Duration S
+             * @description Robot time
+             */
+            readonly duration_s: number;
+            /** Looks */
+            readonly looks: readonly components["schemas"]["LookRecord"][];
+            /**
+             * Sigma
+             * @description Standard deviation of each unknown
+             */
+            readonly sigma: {
+                readonly [key: string]: number;
+            };
+            /**
+             * Unseen
+             * @description What the looks could not tell, in sentences
+             */
+            readonly unseen: readonly string[];
+        };
+        /**
          * RobotFault
          * @description Why the robot stands still, in words a person can act on.
          */
@@ -3813,11 +4540,137 @@ export interface components {
          */
         readonly RobotMode: "offline" | "off" | "not_homed" | "homing" | "ready" | "moving" | "stopping" | "stopped" | "emergency_stop" | "fault";
         /**
+         * RobotRoutineRequest
+         * @description Measure the robot: 25 looks at the label of a vehicle that stands still.
+         */
+        readonly RobotRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "robot";
+            /**
+             * Label Sigma Mm
+             * @description How exactly the side of the printed label was measured
+             * @default 0.15
+             */
+            readonly label_sigma_mm?: number;
+            readonly left_belt?: components["schemas"]["BeltReading"] | null;
+            /** @description Without both the scale of everything is known to a quarter percent only */
+            readonly right_belt?: components["schemas"]["BeltReading"] | null;
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * RobotValues
+         * @description The mechanism, and how the camera on it is turned.
+         *
+         *     Where on the platform the camera sits, no motion of the robot tells: that stays as configured.
+         */
+        readonly RobotValues: {
+            /**
+             * Camera Rotation Rad
+             * @description Rotation vector of the camera on the platform
+             */
+            readonly camera_rotation_rad: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "robot";
+            readonly mechanism: components["schemas"]["PlanarAsBuilt"];
+        };
+        /**
          * Role
          * @description What a person is to the robot.
          * @enum {string}
          */
         readonly Role: "viewer" | "resident" | "technician" | "owner";
+        /**
+         * RollBack
+         * @description Go back to what was in force before.
+         */
+        readonly RollBack: {
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Vehicle Id
+             * @description Of a socket: whose
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * Routine
+         * @description The routine under way, or the last one.
+         */
+        readonly Routine: {
+            /**
+             * Begun At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly begun_at: string;
+            /** Begun By */
+            readonly begun_by: string;
+            /**
+             * Calibration Id
+             * @description What came of it; nobody uses it yet
+             */
+            readonly calibration_id: string | null;
+            /**
+             * Check Id
+             * @description The check that was made
+             */
+            readonly check_id?: string | null;
+            /**
+             * Doing
+             * @description In a sentence
+             */
+            readonly doing: string;
+            /** Done */
+            readonly done: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "robot" | "socket" | "check";
+            /** Looks */
+            readonly looks: readonly components["schemas"]["RoutineLook"][];
+            /** @description Why it stands still, or has failed */
+            readonly problem: components["schemas"]["Problem"] | null;
+            /**
+             * State
+             * @description An interrupted one can be resumed where it was
+             * @enum {string}
+             */
+            readonly state: "running" | "interrupted" | "finished" | "failed" | "cancelled";
+            /**
+             * Total
+             * @description Places to look from; 0 until they are chosen
+             */
+            readonly total: number;
+        };
+        /**
+         * RoutineLook
+         * @description One place from which the label was looked for.
+         */
+        readonly RoutineLook: {
+            /** Seen */
+            readonly seen: boolean;
+            /**
+             * X Mm
+             * @description Of the platform, as far as known
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
         /**
          * Scope
          * @description What a key is for.
@@ -4001,6 +4854,44 @@ export interface components {
              * @default 0
              */
             readonly z_mm?: number;
+        };
+        /**
+         * SocketRoutineRequest
+         * @description Teach a socket: the plug has been brought all the way in, by jogging or by a job.
+         *
+         *     The robot looks, draws the plug out along its axis, and looks again. It moves nowhere else.
+         */
+        readonly SocketRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "socket";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * SocketValues
+         * @description Where the socket of one vehicle is beside its label, as taught with this robot.
+         *
+         *     It takes the place of what the vehicle's settings say.
+         */
+        readonly SocketValues: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "socket";
+            readonly socket: components["schemas"]["SocketOffset"];
+            /**
+             * Vehicle Id
+             * @description Chosen by the owner; stands in the QR label
+             * @example zoe
+             */
+            readonly vehicle_id: string;
         };
         /**
          * Station
@@ -5629,6 +6520,742 @@ export interface operations {
             };
             readonly 401: components["responses"]["Problem401"];
             readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listCalibrations: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Only of this kind */
+                readonly kind?: components["schemas"]["CalibrationKind"] | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly keepCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "source": "camera-0003.toml",
+                 *       "values": {
+                 *         "camera": {
+                 *           "cx": 818.2,
+                 *           "cy": 617.9,
+                 *           "fx": 1296.4,
+                 *           "fy": 1296.1,
+                 *           "height": 1232,
+                 *           "k1": 0.021,
+                 *           "k2": -0.034,
+                 *           "k3": 0,
+                 *           "p1": 0,
+                 *           "p2": 0,
+                 *           "width": 1640
+                 *         },
+                 *         "kind": "camera"
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["CalibrationEntry"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of calibrations */
+                readonly calibration_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "evidence": {
+                     *         "duration_s": 96.4,
+                     *         "looks": [
+                     *           {
+                     *             "covariance_mm2": [
+                     *               0.0001,
+                     *               0,
+                     *               0,
+                     *               0,
+                     *               0.0001,
+                     *               0,
+                     *               0,
+                     *               0,
+                     *               0.0025
+                     *             ],
+                     *             "label_mm": [
+                     *               12.1,
+                     *               -3.4,
+                     *               291
+                     *             ],
+                     *             "residual_mm": [
+                     *               0.011,
+                     *               -0.004,
+                     *               0.052
+                     *             ],
+                     *             "rho1_mm": 212.4,
+                     *             "rho2_mm": 180.9,
+                     *             "weight": 1
+                     *           }
+                     *         ],
+                     *         "sigma": {
+                     *           "left_leg_mm": 0.21
+                     *         },
+                     *         "unseen": []
+                     *       },
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationDetail"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly activateCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of calibrations */
+                readonly calibration_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "accept_worse": false
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["Activation"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listAccuracyChecks: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "accuracy_mm": 0.031,
+                     *           "approaches": 3,
+                     *           "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "direction_variation_mm": 0.058,
+                     *           "duration_s": 141.2,
+                     *           "id": "01957a44-5b10-7c1e-8a37-92d6f0b41c58",
+                     *           "left_out": 0,
+                     *           "made_at": "2026-03-01T18:09:40.000Z",
+                     *           "made_by": "Anna",
+                     *           "places": [
+                     *             {
+                     *               "accuracy_mm": 0.031,
+                     *               "attained_mm": [
+                     *                 [
+                     *                   649.97,
+                     *                   335.02
+                     *                 ],
+                     *                 [
+                     *                   650.03,
+                     *                   335.04
+                     *                 ]
+                     *               ],
+                     *               "direction_variation_mm": 0.058,
+                     *               "repeatability_mm": 0.094,
+                     *               "x_mm": 650,
+                     *               "y_mm": 335
+                     *             }
+                     *           ],
+                     *           "repeatability_mm": 0.094
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AccuracyCheckPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getCalibrationNow: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "in_force": {
+                     *         "camera": null,
+                     *         "robot": {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         },
+                     *         "sockets": []
+                     *       },
+                     *       "routine": {
+                     *         "begun_at": "2026-03-01T18:02:11.400Z",
+                     *         "begun_by": "Anna",
+                     *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "check_id": null,
+                     *         "doing": "The calibration is done. Nobody uses it yet.",
+                     *         "done": 25,
+                     *         "kind": "robot",
+                     *         "looks": [
+                     *           {
+                     *             "seen": true,
+                     *             "x_mm": 642,
+                     *             "y_mm": 331.5
+                     *           }
+                     *         ],
+                     *         "problem": null,
+                     *         "state": "finished",
+                     *         "total": 25
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationNow"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly rollBackCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "kind": "robot"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["RollBack"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "in_force": {
+                     *         "camera": null,
+                     *         "robot": {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         },
+                     *         "sockets": []
+                     *       },
+                     *       "routine": {
+                     *         "begun_at": "2026-03-01T18:02:11.400Z",
+                     *         "begun_by": "Anna",
+                     *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "check_id": null,
+                     *         "doing": "The calibration is done. Nobody uses it yet.",
+                     *         "done": 25,
+                     *         "kind": "robot",
+                     *         "looks": [
+                     *           {
+                     *             "seen": true,
+                     *             "x_mm": 642,
+                     *             "y_mm": 331.5
+                     *           }
+                     *         ],
+                     *         "problem": null,
+                     *         "state": "finished",
+                     *         "total": 25
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationNow"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly beginCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 202: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly cancelCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly resumeCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
