@@ -45,6 +45,7 @@ WIRING = {
     "server.composition",
     "server.serving",
     "server.simulation",
+    "server.simulated_garage",
     "server.simulated_calibration",
     "server.simulated_technician",
     "server.cli",

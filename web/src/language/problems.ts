@@ -20,7 +20,7 @@ export const PROBLEM_CODES = [
   "wrong_firmware", "link_lost", "board_refused", "job", "job_queue_full", "job_needs_person",
   "job_not_found", "job_ended", "cannot_pause", "not_paused", "schedule", "schedule_missed",
   "not_charging", "unknown_vehicle", "vehicle_required", "vehicle_in_use", "plug_state", "plug_seen_in_car",
-  "plug_not_seen",
+  "plug_not_seen", "target_gone", "calibration_held", "calibration_unusable",
   "interrupted", "socket_too_skewed", "insertion_jammed", "insertion_depth", "plug_missed",
   "no_contact", "connector_locked", "car_gone", "restarted_too_often", "long_outage",
   "charge_point", "charge_point_resting", "charge_point_unplugging", "localisation",
