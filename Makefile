@@ -19,7 +19,7 @@ MAKEFLAGS += --no-print-directory
 .PHONY: help setup run test lint format audit sbom bench bench-vision shots campaign calibrations \
 	fuzz fuzz-api hostile kill rig board lock clean \
 	setup-dev system-packages \
-	check-style check-types check-web test-python test-web
+	check-style check-types check-web test-together test-alone test-web
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' Makefile
@@ -30,7 +30,7 @@ run: setup ## start PlugPilot; options of `plugpilot serve` go into ARGS="..."
 	@exec $(BIN)/plugpilot serve $(ARGS)
 
 test: setup-dev system-packages ## run every check and every test, as CI does
-	@$(MAKE) --keep-going check-style check-types check-web test-python test-web
+	@$(MAKE) --keep-going check-style check-types check-web test-together test-alone test-web
 
 lint: setup-dev ## check style and types only
 	@$(MAKE) --keep-going check-style check-types check-web
@@ -124,9 +124,11 @@ ALONE = tests/browser tests/campaign tests/drivers tests/rig tests/server/live \
 	tests/server/access/test_at_the_machine.py tests/server/access/test_logs.py tests/server/tls \
 	tests/server/test_connections.py
 
-test-python:
+test-together:
 	@echo "-- tests, two at a time"
 	@$(BIN)/pytest --no-header --numprocesses 2 --dist loadfile $(ALONE:%=--ignore=%)
+
+test-alone:
 	@echo "-- tests that need the machine to themselves"
 	@$(BIN)/pytest --no-header $(ALONE)
 

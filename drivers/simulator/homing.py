@@ -156,6 +156,7 @@ class HomingRoutine:
     def _start(
         self, direction: tuple[float, float, float], distance_mm: float, speed_mm_s: float
     ) -> None:
+        self._require_homing()
         acceleration = min(
             self._numbers.acceleration_mm_s2,
             *(
@@ -171,16 +172,20 @@ class HomingRoutine:
     async def _until(self, condition: Callable[[], bool]) -> None:
         while True:
             self._board.sync(self._now())
-            if self._board.state is not BoardState.HOMING:
-                fault = self._board.fault
-                raise BoardRefusedError(
-                    f"Homing was ended by a fault: {fault.detail}"
-                    if fault
-                    else "Homing was stopped before it was done."
-                )
+            self._require_homing()
             if condition():
                 return
             await asyncio.sleep(self._period_s)
+
+    def _require_homing(self) -> None:
+        """Nothing moves any more once a stop or a fault has ended the routine."""
+        if self._board.state is not BoardState.HOMING:
+            fault = self._board.fault
+            raise BoardRefusedError(
+                f"Homing was ended by a fault: {fault.detail}"
+                if fault
+                else "Homing was stopped before it was done."
+            )
 
     def _fail(self, detail: str) -> None:
         self._board.latch(FaultCode.HOMING_FAILED, detail, self._now())

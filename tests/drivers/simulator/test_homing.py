@@ -98,7 +98,7 @@ def test_a_pose_in_which_the_legs_cannot_close_is_no_place_to_start() -> None:
         on_stand(scenario, changed(PERFECT, "board", start_joints=JointPosition(0.0, 0.0, 50.0)))
 
 
-@pytest.mark.parametrize("after_s", [0.1, 1.0, 4.0, 9.0])
+@pytest.mark.parametrize("after_s", [0.0, 0.1, 1.0, 4.0, 9.0])
 def test_a_stop_ends_homing(after_s: float) -> None:
     async def scenario(stand: Stand) -> None:
         homing = asyncio.create_task(stand.robot.home())
