@@ -127,7 +127,6 @@ async def running(
             settings.geometry,
             supervisor.telemetry,
         )
-        calibrations.apply_to(supervisor, eye)
         accuracy_checks = AccuracyCheckStore(database)
         routines = RoutineDesk(
             supervisor=supervisor,
@@ -166,6 +165,7 @@ async def running(
             watched=lambda: live.watchers > 0,
             speed=speed,
         )
+        calibrations.apply_to(supervisor, eye, guide)
 
         def station_read() -> None:
             recorder.station_changed()

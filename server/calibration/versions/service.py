@@ -6,10 +6,12 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Protocol
 
 from pydantic import TypeAdapter
 from uuid6 import uuid7
 
+from drivers.camera import CameraModel
 from server.calibration.grade import Grade
 from server.calibration.versions.comparing import Comparison, compared_on_looks
 from server.calibration.versions.errors import (
@@ -23,7 +25,6 @@ from server.config.settings import Settings
 from server.control.finishing import finish
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
-from server.localisation.eye import Eye
 from server.schema.calibrations import (
     Calibration,
     CalibrationDetail,
@@ -37,6 +38,7 @@ from server.schema.vehicles import Vehicle
 from server.storage.calibrations import WHOLE_ROBOT, CalibrationStore, StoredCalibration
 from server.storage.database import Database
 from server.timing import Calendar
+from twin.camera_mount import CameraMount
 
 HOLDER = "Calibration"
 
@@ -71,6 +73,13 @@ class NewCalibration:
     evidence: RobotEvidence | None = None
 
 
+class LooksThroughCamera(Protocol):
+    """Uses the camera's optics and its place on the robot."""
+
+    def recalibrate(self, optics: CameraModel, mount: CameraMount) -> None:
+        """From now on the camera is like this."""
+
+
 class Calibrations:
     """All versions, and the parts that those in force apply to.
 
@@ -85,7 +94,8 @@ class Calibrations:
         self._settings = settings
         self._calendar = calendar
         self._in_force: dict[Key, StoredCalibration] = {}
-        self._parts: tuple[Supervisor, Eye] | None = None
+        self._supervisor: Supervisor | None = None
+        self._onlookers: tuple[LooksThroughCamera, ...] = ()
         self._changing = asyncio.Lock()
         self._listeners: list[Callable[[], None]] = []
 
@@ -118,9 +128,15 @@ class Calibrations:
         stored = await self._store.in_force()
         self._in_force = {_key(one): one for one in stored}
 
-    def apply_to(self, supervisor: Supervisor, eye: Eye) -> None:
-        """From now on, changes are applied to these; they were made with those in force."""
-        self._parts = supervisor, eye
+    def apply_to(self, supervisor: Supervisor, *onlookers: LooksThroughCamera) -> None:
+        """From now on, what is in force is applied to these.
+
+        Args:
+            supervisor: Made with the mechanism that is in force.
+            onlookers: Are told at once how the camera is, and again at each change.
+        """
+        self._supervisor, self._onlookers = supervisor, onlookers
+        self._tell_onlookers(self.in_force)
 
     async def keep(self, new: NewCalibration) -> Calibration:
         """Keep a new version. It is not in force.
@@ -224,10 +240,9 @@ class Calibrations:
         self, wanted: dict[Key, StoredCalibration], write: Callable[[], Awaitable[None]]
     ) -> None:
         """Change the parts and what is kept, both or none."""
-        if self._parts is None:
-            raise AssertionError("calibrations were changed before there were any parts")
-        supervisor, _ = self._parts
-        async with supervisor.control("calibration", HOLDER) as lease:
+        if self._supervisor is None:
+            raise AssertionError("calibrations were changed before there was a robot")
+        async with self._supervisor.control("calibration", HOLDER) as lease:
             self._apply(lease, wanted)
             try:
                 await write()
@@ -237,12 +252,16 @@ class Calibrations:
             self._in_force = wanted
 
     def _apply(self, lease: Lease, versions: dict[Key, StoredCalibration]) -> None:
-        if self._parts is None:
+        if self._supervisor is None:
             return
-        supervisor, eye = self._parts
-        values, camera = _values_of(versions), self._settings.camera
-        supervisor.use_mechanism(lease, values.mechanism)
-        eye.recalibrate(values.optics(camera), values.mount(camera))
+        values = _values_of(versions)
+        self._supervisor.use_mechanism(lease, values.mechanism)
+        self._tell_onlookers(values)
+
+    def _tell_onlookers(self, values: ValuesInForce) -> None:
+        camera = self._settings.camera
+        for onlooker in self._onlookers:
+            onlooker.recalibrate(values.optics(camera), values.mount(camera))
 
     def _compared(self, stored: StoredCalibration) -> Comparison:
         values, evidence = _VALUES.validate_python(stored.content), _evidence_of(stored)
