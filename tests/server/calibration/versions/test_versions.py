@@ -61,11 +61,13 @@ def test_a_version_is_kept_with_where_it_comes_from_and_counts_only_when_activat
         assert eye.mount.rotation_x_rad == 0.01
         assert eye.mount.x_mm == scene.services.settings.camera.mount.x_mm
         assert eye.optics == optics
+        assert scene.services.guide._mount == eye.mount
         return kept.id
 
     async def after_a_restart(scene: Scene) -> None:
         assert mechanism(scene) == values().mechanism
         assert scene.services.runner._eye.mount.rotation_x_rad == 0.01
+        assert scene.services.guide._mount.rotation_x_rad == 0.01
         (found,) = await scene.services.calibrations.page(kind=ROBOT, before=None, limit=5)
         assert found.id == kept_id
         assert found.in_force
