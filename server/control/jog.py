@@ -120,6 +120,11 @@ class Jog:
         if self._task is not None:
             await asyncio.wait([self._task])
 
+    async def wait_released(self) -> None:
+        """Wait until a motion that nobody holds any more has come to rest."""
+        if self._held is None:
+            await self.wait_stopped()
+
     async def _move(self, motion: Motion) -> None:
         try:
             async with self._supervisor.plug_may_move():

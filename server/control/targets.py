@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from server.control.errors import MotionOutOfReachError, RobotNotReadyError, TargetGoneError
 from server.control.jog import Jog
+from server.control.model import RobotMode
 from server.control.path_check import FORCE_PERIOD_S, check_path
 from server.control.supervisor import Supervisor
 from twin.errors import TwinError
@@ -23,8 +24,8 @@ from twin.kinematics import gamma
 from twin.motion import MotionPlan, plan_straight_line
 from twin.statics import PlanForces, forces_along
 
-STANDS_MM = 0.02
-"""A robot this near to the start of a plan, or to its end, is there."""
+STANDS_MM = 1e-3
+"""A robot this near to the start of a plan is there: a board takes no plan from further away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,9 +81,12 @@ class Targets:
             ControlError: the robot is not ready, the plug forbids it, or it leaves the limits.
         """
         supervisor = self._supervisor
+        await self._jog.wait_released()
         hindrance = supervisor.why_not_moving()
         if hindrance is not None:
             raise hindrance
+        if supervisor.mode is RobotMode.MOVING:
+            raise RobotNotReadyError("The robot is moving.")
         geometry, strength = supervisor.geometry, supervisor.strength
         start = supervisor.telemetry.require().commanded.position
         try:

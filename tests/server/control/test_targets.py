@@ -98,6 +98,35 @@ def test_letting_go_and_silence_stop_on_the_way() -> None:
     in_cell(scenario, STANDING)
 
 
+@pytest.mark.parametrize("after_s", [0.0, 0.01, 0.03, 0.05, 0.08])
+def test_who_lets_go_may_ask_for_the_rest_of_the_way_at_once(after_s: float) -> None:
+    async def scenario(cell: RobotCell) -> None:
+        targets = targets_of(cell)
+        target = await choose_beside(cell, targets, 60.0, 0.0)
+        await hold_for(targets, target, 1.0)
+        cell.jog.release()
+        await asyncio.sleep(after_s)
+        rest = await choose_beside(cell, targets, 20.0, 0.0)
+        assert cell.mode() is RobotMode.READY
+        targets.hold(rest.id)
+        await asyncio.sleep(0.2)
+        assert cell.moving(), "the board has taken the plan"
+
+    in_cell(scenario, STANDING)
+
+
+def test_no_way_is_planned_for_a_robot_that_somebody_else_moves() -> None:
+    async def scenario(cell: RobotCell) -> None:
+        targets = targets_of(cell)
+        cell.jog.hold("x", 1, SPEED_MM_S)
+        await asyncio.sleep(0.15)
+        assert cell.moving()
+        with pytest.raises(RobotNotReadyError, match="moving"):
+            await choose_beside(cell, targets, 20.0, 0.0)
+
+    in_cell(scenario, STANDING)
+
+
 def test_somebody_else_in_control_is_respected() -> None:
     async def scenario(cell: RobotCell) -> None:
         targets = targets_of(cell)
