@@ -20,34 +20,21 @@ from twin.scene.state import ChosenTarget
 
 logger = logging.getLogger(__name__)
 
+_NAME = TARGET.nodes[0]
 _X: Vector = (1.0, 0.0, 0.0)
 _Z: Vector = (0.0, 0.0, 1.0)
 
 
 class TargetNodes:
-    """Platform, bars and plug as a ghost, and a line to them."""
+    """The ghost and a line to it. Browsers get the ghost's shapes with the first place only."""
 
     def __init__(self, scene: SceneApi, geometry: RobotGeometry) -> None:
-        name = TARGET.nodes[0]
+        self._scene = scene
         self._geometry = geometry
         self._shown: ChosenTarget | None = None
-        add_pivot(scene, name)
-        self.ghost = add_pivot(scene, f"{name}/ghost", visible=False)
-        bar = _as_ghost(robot_parts.bar(geometry))
-        self._bars = [
-            add_part(scene, f"{name}/ghost/bar_{which}", bar, shadow=False)
-            for which in ("ab", "df", "ec")
-        ]
-        platform = _as_ghost(robot_parts.platform(geometry))
-        self.platform = add_part(scene, f"{name}/ghost/platform", platform, shadow=False)
-        self.plug = add_part(
-            scene,
-            f"{name}/ghost/plug",
-            plug_parts.outline_of_plug(),
-            wxyz=turn(_X, -geometry.theta_rad),
-            shadow=False,
-        )
-        self.path = PathNodes(scene, f"{name}/path")
+        add_pivot(scene, _NAME)
+        self.path = PathNodes(scene, f"{_NAME}/path")
+        self.ghost: Ghost | None = None
 
     def show(self, target: ChosenTarget | None) -> None:
         """Puts the ghost at a place; hides it and its way while there is none."""
@@ -56,9 +43,10 @@ class TargetNodes:
         self._shown = target
         self.path.show(target.path if target is not None else None)
         pose = self._pose_of(target) if target is not None else None
-        if pose is not None:
-            self._move(pose)
-        set_visible(self.ghost, visible=pose is not None)
+        if pose is not None and self.ghost is None:
+            self.ghost = Ghost(self._scene, self._geometry)
+        if self.ghost is not None:
+            self.ghost.show(pose)
 
     def _pose_of(self, target: ChosenTarget) -> RobotPose | None:
         try:
@@ -66,6 +54,33 @@ class TargetNodes:
         except KinematicsError as error:
             logger.warning("The picture cannot show the chosen place: %s", error)
             return None
+
+
+class Ghost:
+    """Platform, bars and plug where they would be."""
+
+    def __init__(self, scene: SceneApi, geometry: RobotGeometry) -> None:
+        self.whole = add_pivot(scene, f"{_NAME}/ghost", visible=False)
+        bar = _as_ghost(robot_parts.bar(geometry))
+        self._bars = [
+            add_part(scene, f"{_NAME}/ghost/bar_{which}", bar, shadow=False)
+            for which in ("ab", "df", "ec")
+        ]
+        platform = _as_ghost(robot_parts.platform(geometry))
+        self.platform = add_part(scene, f"{_NAME}/ghost/platform", platform, shadow=False)
+        self.plug = add_part(
+            scene,
+            f"{_NAME}/ghost/plug",
+            plug_parts.outline_of_plug(),
+            wxyz=turn(_X, -geometry.theta_rad),
+            shadow=False,
+        )
+
+    def show(self, pose: RobotPose | None) -> None:
+        """Puts it into a pose; hides it without one."""
+        if pose is not None:
+            self._move(pose)
+        set_visible(self.whole, visible=pose is not None)
 
     def _move(self, pose: RobotPose) -> None:
         left, right = turn(_Z, pose.left_angle_rad), turn(_Z, pose.right_angle_rad)

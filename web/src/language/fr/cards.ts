@@ -59,7 +59,7 @@ export const cards: CardWords = {
     title: "Ensuite",
     what: { charge: "Une charge", plug_in: "Le branchement", unplug: "Le débranchement" },
     begins: (what: string, when: string): string => `${what} commence ${when}.`,
-    paused: (what: string): string => `${what} : en pause, à reprendre à la main.`,
+    paused: (what: string): string => `${what}\u00a0: en pause, à reprendre à la main.`,
     at: (date: string): string => `le ${date}`,
     after: "à la fin de cette tâche",
     soon: "dès que le robot est libre",
