@@ -10,7 +10,7 @@ import { say as bench } from "../words";
 import { TwinFrame } from "./frame";
 import { placeAt } from "./sight";
 import type { Sight } from "./sight";
-import { arrived, choose, choosing, followTarget, forget, grip, hold, target, trouble } from "./target";
+import { arrived, beginsHere, choose, choosing, followTarget, forget, grip, hold, target, trouble } from "./target";
 import { say } from "./words";
 
 /** The 3D picture, and going to a place that somebody has pointed at in it. */
@@ -109,7 +109,7 @@ function Preview({ chosen }: { chosen: MoveTarget }) {
       </dl>
       <Forces chosen={chosen} />
       <div class="target-actions">
-        <HoldButton held={held} disabled={!held && hindrance.value !== null} />
+        <HoldButton held={held} disabled={!held && (hindrance.value !== null || !beginsHere.value)} />
         <button type="button" class="button" onClick={() => void forget()}>
           {say.forget}
         </button>

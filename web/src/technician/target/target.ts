@@ -1,5 +1,5 @@
 /** The place somebody has pointed at, the way there, and the hand that lets the robot go. */
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { call, Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { MoveTarget, Robot } from "@/api/wire";
@@ -10,6 +10,8 @@ import { say as bench } from "../words";
 import type { Place } from "./sight";
 
 const THERE_MM = 0.2;
+/** The server takes a way only from where it begins; positions come rounded to micrometres. */
+const LEFT_MM = 0.003;
 
 /** The way that was planned and checked; null while there is none. */
 export const target = signal<MoveTarget | null>(null);
@@ -22,10 +24,19 @@ export const grip = new Grip<string>(
   (a, b) => a === b,
   (ending) => {
     const robot = store.live.peek()?.robot;
-    if (target.value !== null && robot !== undefined && isThere(robot, target.value)) arrive();
+    const chosen = target.value;
+    if (chosen !== null && robot !== undefined && isThere(robot, chosen)) arrive();
+    else if (chosen !== null && ending.kind === "refused" && ending.problem?.code === "target_gone")
+      void choose({ x_mm: chosen.tip.x_mm, y_mm: chosen.tip.y_mm }); // shown anew, to be held anew
     else trouble.value = ending.kind === "no_answer" ? bench.jog.noAnswer : troubleOf(ending.problem);
   },
 );
+
+/** The way shown is one that the robot can go now: it begins where the robot stands. */
+export const beginsHere = computed(() => {
+  const robot = store.live.value?.robot;
+  return robot !== undefined && target.value !== null && !choosing.value && !hasLeft(robot, target.value);
+});
 
 /** Asks for the way to a place; nothing moves. */
 export async function choose(place: Place): Promise<void> {
@@ -98,7 +109,7 @@ function hasLeft({ commanded }: Robot, { way }: MoveTarget): boolean {
   const [from] = way;
   if (commanded?.tip == null || from === undefined) return false;
   const { x_mm, y_mm, z_mm } = commanded.tip;
-  return Math.hypot(x_mm - from.x_mm, y_mm - from.y_mm, z_mm - from.z_mm) > THERE_MM;
+  return Math.hypot(x_mm - from.x_mm, y_mm - from.y_mm, z_mm - from.z_mm) > LEFT_MM;
 }
 
 const farthest = (a: MoveTarget["joints"], b: MoveTarget["joints"]): number =>
