@@ -16,8 +16,8 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test lint format audit sbom bench bench-vision campaign fuzz fuzz-api hostile \
-	kill rig board lock clean \
+.PHONY: help setup run test lint format audit sbom bench bench-vision shots campaign calibrations \
+	fuzz fuzz-api hostile kill rig board lock clean \
 	setup-dev system-packages \
 	check-style check-types check-web test-together test-alone test-web
 
@@ -65,8 +65,16 @@ rig: setup-dev system-packages ## test the real firmware at length: fault by fau
 board: setup system-packages ## a simulated board with the real firmware, for serve --driver arduino
 	@exec $(BIN)/python -m tests.rig $(ARGS)
 
+shots: setup-dev system-packages ## take a picture of every page and state into build/shots; STATE... in ARGS
+	@mkdir -p build/shots
+	@$(BIN)/python -m tests.browser.shots build/shots $(ARGS)
+
 campaign: setup ## plug in 100 simulated cars; options of `plugpilot simulate campaign` in ARGS
 	@$(BIN)/plugpilot simulate campaign $(ARGS)
+
+calibrations: setup ## calibrate 10 badly built robots, passing over those done; --seeds 0-199 in ARGS
+	@mkdir -p build
+	@$(BIN)/plugpilot simulate calibration --seeds 0-9 --keep build/calibrations.jsonl $(ARGS)
 
 hostile: setup-dev ## 1000 times a hostile energy manager at a random moment; --timings N in ARGS
 	@$(BIN)/python -m tests.campaign.hostile $(ARGS)

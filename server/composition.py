@@ -13,10 +13,10 @@ from threadpoolctl import threadpool_limits
 from drivers.camera import CameraError
 from drivers.errors import UnknownDriverError
 from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
-from drivers.simulator.following import RobotFollower
-from drivers.simulator.world import SimulatedWorld
 from drivers.station import StationError
 from server.access import Access
+from server.calibration.routines.desk import RoutineDesk
+from server.calibration.versions.service import Calibrations
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
@@ -38,14 +38,15 @@ from server.localisation.eye import Eye
 from server.recordings.playbacks import Playbacks
 from server.recordings.recorder import Recorder
 from server.recordings.store import RecordingStore
-from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.services import Services
-from server.simulated_car import SimulatedCar
+from server.simulated_garage import introduce, let_follow, simulated_car
+from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.daily_backups import DailyBackups
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.plug import StoredPlug
 from server.storage.vehicles import VehicleStore
+from server.technician.tools import make_tools
 from server.timing import Calendar
 from twin.scene import TwinHost
 
@@ -54,7 +55,6 @@ _log = logging.getLogger(__name__)
 PUSH_PERIOD_S = 0.05
 STATION_PERIOD_S = 1.0
 CAMERA_PERIOD_S = 0.2
-DEMO_NAME = "Demo car"
 
 
 class DriverChoiceError(ConfigurationError):
@@ -95,14 +95,15 @@ async def running(
     devices = devices or _devices(settings, folder)
     async with contextlib.AsyncExitStack() as stack:
         database = await _opened(settings.storage, folder, calendar, stack)
-        access = Access(database, calendar, settings.access, speed)
-        await access.start()
-        stack.push_async_callback(access.close)
+        access = await _let_in(Access(database, calendar, settings.access, speed), stack)
+        calibrations = Calibrations(database, settings, calendar)
+        await calibrations.start()
+        known = calibrations.in_force
         jobs, vehicles = JobStore(database), VehicleStore(database, _label_key(settings, folder))
 
         await _open(devices, stack)
         if devices.world is not None and settings.camera.driver == SIMULATOR:
-            await _introduce(devices.world, vehicles)
+            await introduce(devices.world, vehicles)
 
         supervisor = Supervisor(
             devices.robot,
@@ -115,15 +116,26 @@ async def running(
             strength=Strength(
                 loads_at_limits(settings.loads, settings.insertion), settings.actuators
             ),
+            mechanism=known.mechanism,
         )
         if devices.followed is not None:
-            _let_follow(devices.followed.follower, supervisor)
+            let_follow(devices.followed.follower, supervisor)
         eye = Eye(
             devices.camera,
-            settings.camera.optics,
-            settings.camera.mount,
+            known.optics(settings.camera),
+            known.mount(settings.camera),
             settings.geometry,
             supervisor.telemetry,
+        )
+        accuracy_checks = AccuracyCheckStore(database)
+        routines = RoutineDesk(
+            supervisor=supervisor,
+            eye=eye,
+            vehicles=vehicles,
+            calibrations=calibrations,
+            settings=settings,
+            calendar=calendar,
+            checks=accuracy_checks,
         )
         runner = JobRunner(
             supervisor=supervisor,
@@ -133,6 +145,7 @@ async def running(
             vehicles=vehicles,
             settings=settings,
             calendar=calendar,
+            as_taught=calibrations.as_taught,
         )
         integrations = Integrations(database, settings, calendar, speed)
         await integrations.running_settings.start()
@@ -152,6 +165,7 @@ async def running(
             watched=lambda: live.watchers > 0,
             speed=speed,
         )
+        calibrations.apply_to(supervisor, eye, guide)
 
         def station_read() -> None:
             recorder.station_changed()
@@ -176,6 +190,17 @@ async def running(
         )
         recorder.start()
         stack.push_async_callback(recorder.close)
+        jog = Jog(supervisor, DEAD_MAN_S * speed)
+        technician = make_tools(
+            settings,
+            calendar,
+            robot=devices.robot,
+            camera=devices.camera,
+            vehicles=vehicles,
+            supervisor=supervisor,
+            jog=jog,
+        )
+        stack.push_async_callback(technician.close)
         services = Services(
             settings=settings,
             calendar=calendar,
@@ -185,11 +210,14 @@ async def running(
             jobs=jobs,
             vehicles=vehicles,
             supervisor=supervisor,
-            jog=Jog(supervisor, DEAD_MAN_S * speed),
+            jog=jog,
             runner=runner,
             station=station,
             camera=camera,
             live=live,
+            calibrations=calibrations,
+            routines=routines,
+            accuracy_checks=accuracy_checks,
             divergence=divergence,
             guide=guide,
             recordings=recordings,
@@ -200,7 +228,8 @@ async def running(
             charge_point=charge_point,
             twin=twin,
             garage=devices.garage,
-            simulated_car=_simulated_car(devices, settings),
+            simulated_car=simulated_car(devices, settings),
+            technician=technician,
         )
         show(services)
         integrations.tell_events(services)
@@ -224,6 +253,12 @@ async def _opened(
     return database
 
 
+async def _let_in(access: Access, stack: contextlib.AsyncExitStack) -> Access:
+    await access.start()
+    stack.push_async_callback(access.close)
+    return access
+
+
 async def _start(
     services: Services, stack: contextlib.AsyncExitStack, *, wait_for_robot: bool
 ) -> None:
@@ -234,6 +269,7 @@ async def _start(
     stack.push_async_callback(services.charge_point.close)
     await services.supervisor.start(wait=wait_for_robot)
     stack.push_async_callback(services.supervisor.close)
+    stack.push_async_callback(services.routines.close)
     await services.runner.start()
     stack.push_async_callback(services.runner.close)
     await services.station.start()
@@ -286,45 +322,3 @@ def _label_key(settings: Settings, folder: Path | None) -> LabelKey:
     if folder is not None:
         return load_label_key(folder)
     return LabelKey(settings.simulation.seed.to_bytes(16, "big"))
-
-
-async def _introduce(world: SimulatedWorld, vehicles: VehicleStore) -> None:
-    """Make the simulated car known, as its owner would have measured it, and label it.
-
-    Done at every start: another seed is another car with the same label.
-    """
-    car = world.car
-    offset = car.known_offset
-    vehicle, _ = await vehicles.put(
-        car.vehicle_id,
-        VehicleSettings(
-            name=DEMO_NAME,
-            label_size_mm=car.label_size_mm,
-            socket=SocketOffset(
-                x_mm=offset.x_mm,
-                y_mm=offset.y_mm,
-                z_mm=offset.z_mm,
-                rotation_x_rad=offset.rotation_x_rad,
-                rotation_y_rad=offset.rotation_y_rad,
-            ),
-        ),
-    )
-    world.stick_label(vehicle.label_payload)
-
-
-def _simulated_car(devices: Devices, settings: Settings) -> SimulatedCar | None:
-    """The car before a simulated camera."""
-    if devices.world is None or settings.camera.driver != SIMULATOR:
-        return None
-    return SimulatedCar(devices.world)
-
-
-def _let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
-    """Let the simulated surroundings of a real robot know where it stands."""
-
-    def pass_on() -> None:
-        state = supervisor.telemetry.latest
-        if state is not None:
-            follower.take(state)
-
-    supervisor.listen(pass_on)

@@ -39,7 +39,7 @@ class Integrations:
         self._database = database
         self._calendar = calendar
         self._speed = speed
-        running = RunningSettings(settings, ChangedSettingsStore(database))
+        running = RunningSettings(settings, ChangedSettingsStore(database), calendar.now)
         self.running_settings = running
         self.events = EventLog()
         self.webhooks = Webhooks(

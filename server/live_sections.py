@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from server.calibration.view import calibration_view
 from server.divergence.report import twin_report
 from server.guidance.view import guidance_view
 from server.live.twin_feed import feed_twin
@@ -34,6 +35,9 @@ def show(services: Services) -> None:
         "guidance", lambda: guidance_view(services.guide, services.settings, services.calendar)
     )
     services.guide.listen(lambda: live.changed("guidance"))
+    live.add("calibration", lambda: calibration_view(services.calibrations, services.routines))
+    services.calibrations.listen(lambda: live.changed("calibration", urgent=True))
+    services.routines.listen(lambda: live.changed("calibration"))
     services.divergence.listen(lambda _: live.changed("twin", urgent=True))
 
     shown: list[object] = [None]

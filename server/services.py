@@ -8,6 +8,8 @@ from datetime import datetime
 from drivers.simulator.garage import SimulatedGarage
 from server.access import Access
 from server.adjusting import RunningSettings
+from server.calibration.routines.desk import RoutineDesk
+from server.calibration.versions.service import Calibrations
 from server.charge_point import ChargePointService
 from server.config.settings import Settings
 from server.control.jog import Jog
@@ -22,9 +24,11 @@ from server.live.station_watch import StationWatch
 from server.recordings.playbacks import Playbacks
 from server.recordings.store import RecordingStore
 from server.simulated_car import SimulatedCar
+from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.database import Database
 from server.storage.jobs import JobStore
 from server.storage.vehicles import VehicleStore
+from server.technician.tools import TechnicianTools
 from server.timing import Calendar
 from server.webhooks.service import Webhooks
 from twin.scene import TwinHost
@@ -48,6 +52,9 @@ class Services:
         station: Newest reading of the charging station.
         camera: Pictures for people.
         live: Pushes what changes.
+        calibrations: What is known of this very robot.
+        routines: Measures it.
+        accuracy_checks: How exactly it went where it was sent.
         divergence: Runs the model beside the robot.
         guide: Tells arriving drivers how far to go.
         recordings: What was recorded of jobs.
@@ -59,6 +66,7 @@ class Services:
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
         simulated_car: The car of the simulated garage; None before a real camera.
+        technician: What the technician's page asks for.
     """
 
     settings: Settings
@@ -74,6 +82,9 @@ class Services:
     station: StationWatch
     camera: CameraFeed
     live: LiveHub
+    calibrations: Calibrations
+    routines: RoutineDesk
+    accuracy_checks: AccuracyCheckStore
     divergence: DivergenceWatcher
     guide: Guide
     recordings: RecordingStore
@@ -85,3 +96,4 @@ class Services:
     twin: TwinHost | None
     garage: SimulatedGarage | None
     simulated_car: SimulatedCar | None
+    technician: TechnicianTools

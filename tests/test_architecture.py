@@ -41,9 +41,13 @@ ALLOWED: dict[str, set[str]] = {
 
 WIRING = {
     "server.services",
+    "server.diagnostics",
     "server.composition",
     "server.serving",
     "server.simulation",
+    "server.simulated_garage",
+    "server.simulated_calibration",
+    "server.simulated_technician",
     "server.cli",
 }
 """What puts the parts together; the parts do not know it."""
@@ -67,14 +71,16 @@ FORBIDDEN: dict[str, set[str]] = {
         "twin.motion",
     },
     "server.jobs": {"server.live", *WIRING, "drivers.simulator"},
+    "server.calibration": {"server.api", "server.live", *WIRING, "drivers.simulator"},
     "server.divergence": {"server.live", "server.api", *WIRING, "drivers.simulator"},
     "server.recordings": {"server.api", *WIRING, "drivers.simulator"},
     "server.events": {"server.api", *WIRING, "drivers.simulator"},
     "server.webhooks": {"server.api", "server.jobs", "server.control", *WIRING, "drivers"},
     "server.charge_point": {"server.api", *WIRING, "drivers.simulator"},
     "server.adjusting": {"server.api", "server.jobs", "server.control", *WIRING, "drivers"},
+    "server.technician": {"server.api", *WIRING, "drivers.simulator"},
     "server.live": {"server.api.app", *(WIRING - {"server.services"}), "drivers.simulator"},
-    "server.api": {*(WIRING - {"server.services"}), "drivers.simulator"},
+    "server.api": {*(WIRING - {"server.services", "server.diagnostics"}), "drivers.simulator"},
     "server.services": {"server.cli", "server.serving", "server.simulation", "server.composition"},
     "server.composition": {"server.cli", "server.serving", "server.simulation"},
     "server.serving": {"server.cli", "server.simulation"},

@@ -18,10 +18,12 @@ from drivers.arduino.scale import AxisScale
 from drivers.arduino.serial_port import Line, OpenLine
 from drivers.arduino.session import Session
 from drivers.arduino.settings import BoardSettings
+from drivers.arduino.tap import TappedLine
 from drivers.arduino.tracker import Tracker
 from drivers.arduino.words import BOARD_NAMES
 from drivers.robot import BoardRefusedError, NotConnectedError, RobotIdentity, RobotState
 from drivers.robot.segment_rules import SegmentRules
+from drivers.robot.traffic import Traffic
 from twin.geometry import RobotGeometry
 from twin.motion import MotionLimits
 from twin.motion.segments import Segment
@@ -244,8 +246,19 @@ async def connect_board(
     limits: MotionLimits,
     on_state: OnState,
     on_lost: OnLost,
+    traffic: Traffic | None = None,
 ) -> Connection:
     """Find the board, open its port and make it ready for work.
+
+    Args:
+        port: Of the board, "auto" to look for it.
+        open_line: Opens it.
+        settings: Of the board.
+        geometry: Gives the travel of the joints.
+        limits: How fast they may move.
+        on_state: Gets every sample.
+        on_lost: Called once when the link has broken.
+        traffic: Told what goes over the link.
 
     Raises:
         NotConnectedError: there is no board, it does not answer, or it is the wrong one.
@@ -253,7 +266,8 @@ async def connect_board(
     """
     device = await asyncio.to_thread(find_board, port)
     switch = _Switch()
-    line = await open_line(device, switch.hear, switch.lose)
+    line = TappedLine(traffic or Traffic(), switch.hear)
+    line.lay_on(await open_line(device, line.hear, switch.lose))
     try:
         switch.handshake = Handshake(line)
         hello = await switch.handshake.run()

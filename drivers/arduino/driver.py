@@ -22,6 +22,7 @@ from drivers.robot import (
     StopCategory,
 )
 from drivers.robot.telemetry_feed import TelemetryFeed
+from drivers.robot.traffic import Traffic
 from twin.geometry import RobotGeometry
 from twin.motion import MotionLimits
 from twin.motion.segments import Segment
@@ -57,6 +58,7 @@ class ArduinoRobot:
         *,
         open_line: OpenLine = open_serial,
     ) -> None:
+        self.traffic = Traffic()
         self._port = port
         self._open_line = open_line
         self._geometry = geometry
@@ -89,6 +91,7 @@ class ArduinoRobot:
                     limits=self._limits,
                     on_state=self._feed.publish,
                     on_lost=self._lose,
+                    traffic=self.traffic,
                 )
             return self._connection.identity
 

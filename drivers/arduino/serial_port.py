@@ -78,11 +78,17 @@ class SerialPort:
         self._on_frames = on_frames
         self._on_lost = on_lost
         self._closing = threading.Event()
+        self._frames = FrameReader(FROM_BOARD)
         self._out: SimpleQueue[bytes | None] = SimpleQueue()
         self._reader = threading.Thread(target=self._read, name="board reader", daemon=True)
         self._writer = threading.Thread(target=self._write, name="board writer", daemon=True)
         self._reader.start()
         self._writer.start()
+
+    @property
+    def damaged(self) -> int:
+        """Frames that arrived damaged since the port was opened."""
+        return self._frames.damaged
 
     def write(self, data: bytes) -> None:
         """Send bytes; returns at once."""
@@ -100,7 +106,7 @@ class SerialPort:
         self._line.close()
 
     def _read(self) -> None:
-        frames = FrameReader(FROM_BOARD)
+        frames = self._frames
         understood = False
         while not self._closing.is_set():
             try:

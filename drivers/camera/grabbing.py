@@ -197,7 +197,7 @@ class GrabbingCamera:
         captured_at_s = asyncio.get_running_loop().time() - age_s
         image = raw.image
         image.flags.writeable = False
-        frame = Frame(image, captured_at_s, self._sequence)
+        frame = Frame(image, captured_at_s, self._sequence, raw.exposure_s)
         self._newest = _Taken(frame, captured_at_s - 0.5 * raw.exposure_s, self._what_is_wrong(raw))
         self._news.tell()
 

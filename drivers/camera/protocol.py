@@ -17,11 +17,13 @@ class Frame:
         image: Grey values, shape (height, width), uint8, read-only.
         captured_at_s: Middle of the exposure, event loop time [s].
         sequence: Counts up by one for every frame the sensor made; gaps are dropped frames.
+        exposure_s: How long it was exposed; 0 when nobody knows.
     """
 
     image: NDArray[np.uint8]
     captured_at_s: float
     sequence: int
+    exposure_s: float = 0.0
 
 
 class CameraDriver(Protocol):

@@ -16,8 +16,15 @@ from drivers.robot import (
     StopCategory,
 )
 from drivers.robot.telemetry_feed import TelemetryFeed
+from drivers.robot.traffic import Traffic
 from drivers.simulator.board import SimulatedBoard
 from drivers.simulator.homing import HomingRoutine
+from drivers.simulator.telling import (
+    command_passage,
+    refusal_passage,
+    sample_passage,
+    segments_words,
+)
 from drivers.simulator.world import SimulatedWorld
 from twin.motion.segments import Segment
 
@@ -33,11 +40,13 @@ class SimulatedRobot:
     """
 
     def __init__(self, world: SimulatedWorld) -> None:
+        self.traffic = Traffic()
         self._world = world
         self._numbers = world.parameters.board
         self._board = SimulatedBoard(world)
         self._feed = TelemetryFeed()
         self._in_flight: deque[RobotState] = deque()
+        self._delivered: RobotState | None = None
         self._wake = asyncio.Event()
         self._board_task: asyncio.Task[None] | None = None
         self._homing_task: asyncio.Task[None] | None = None
@@ -94,18 +103,18 @@ class SimulatedRobot:
 
     async def enable(self) -> None:
         """Energise the drives."""
-        await self._send(self._board.enable)
+        await self._send("Enable", self._board.enable)
 
     async def disable(self) -> None:
         """De-energise the drives; refused while moving."""
-        await self._send(self._board.disable)
+        await self._send("Disable", self._board.disable)
 
     async def home(self) -> None:
         """Seek the limit switches and set the positions; returns when done.
 
         The routine runs on the board: it goes on if the caller stops waiting.
         """
-        await self._send(self._begin_homing)
+        await self._send("Home", self._begin_homing)
         if self._homing_task is None:
             raise BoardRefusedError("Homing did not begin.")
         try:
@@ -117,24 +126,33 @@ class SimulatedRobot:
 
     async def set_force_limit(self, force_n: float) -> None:
         """Cap the force of the rho3 actuator [N]; the board enforces it by itself."""
-        await self._send(lambda now_s: self._board.set_force_limit(force_n, now_s))
+        words = f"force_n={force_n:g}"
+        await self._send(
+            "ForceLimit", lambda now_s: self._board.set_force_limit(force_n, now_s), lambda: words
+        )
 
     async def push(self, segments: Sequence[Segment]) -> None:
         """Append segments to the board's queue; all or none."""
         taken = tuple(segments)
-        await self._send(lambda now_s: self._board.push(taken, now_s))
+        await self._send(
+            "Segment",
+            lambda now_s: self._board.push(taken, now_s),
+            lambda: segments_words(taken),
+        )
 
     async def stop(self, category: StopCategory) -> None:
         """Drop the queue and decelerate; honoured in every state, idempotent."""
-        await self._send(lambda now_s: self._board.stop(category, now_s))
+        await self._send(
+            "Stop", lambda now_s: self._board.stop(category, now_s), lambda: category.name
+        )
 
     async def emergency_stop(self) -> None:
         """Category 1 stop, then latch EMERGENCY_STOP."""
-        await self._send(self._board.emergency_stop)
+        await self._send("EmergencyStop", self._board.emergency_stop)
 
     async def clear_fault(self) -> None:
         """Release a latched fault whose cause is gone."""
-        await self._send(self._board.clear_fault)
+        await self._send("ClearFault", self._board.clear_fault)
 
     # --- fault injection ---------------------------------------------------------------------
 
@@ -219,15 +237,25 @@ class SimulatedRobot:
         # a cable never changes the order
         sample = self._in_flight.popleft()
         if self._cable and self._linked:
-            self._feed.publish(replace(sample, received_at_s=self._now()))
+            now_s = self._now()
+            if self.traffic.heard:
+                self.traffic.tell(sample_passage(sample, self._delivered, now_s))
+            self._delivered = sample
+            self._feed.publish(replace(sample, received_at_s=now_s))
 
-    async def _send(self, action: Action) -> None:
+    async def _send(self, kind: str, action: Action, words: Callable[[], str] = str) -> None:
         """Send a command; once on its way it takes effect even if the caller is cancelled."""
         self._require_link()
+        if self.traffic.heard:
+            self.traffic.tell(command_passage(kind, words(), self._now()))
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[None] = loop.create_future()
         loop.call_later(self._numbers.command_delay_s, self._arrive, action, answer)
-        await answer
+        try:
+            await answer
+        except RobotDriverError as refusal:
+            self.traffic.tell(refusal_passage(kind, refusal, self._now()))
+            raise
 
     def _arrive(self, action: Action, answer: asyncio.Future[None]) -> None:
         refusal: RobotDriverError | None = None

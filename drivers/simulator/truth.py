@@ -12,6 +12,7 @@ from drivers.simulator.plant import Plant, PlantState
 from drivers.simulator.socket_contact import Place
 from drivers.simulator.view import Pose
 from drivers.simulator.watching import plug_pose
+from twin.joints import JointPosition, TipPosition
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +84,11 @@ def ground_truth(
         locked=contact.locked_at_mm is not None,
         load_breaks=load_breaks,
     )
+
+
+def tip_at_rest(plant: Plant, joints: JointPosition) -> TipPosition:
+    """Where the plug's tip really is with the carriages there by their switches [mm]."""
+    return plant.tip(PlantState(0.0, joints, joints))
 
 
 def lateral_at_face_mm(plug: Pose, socket: Pose) -> float:

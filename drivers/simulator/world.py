@@ -48,7 +48,7 @@ class CarIsPluggedInError(RuntimeError):
 
 
 class SimulatedWorld:
-    """Robot, car and physics behind the simulated drivers.
+    """Robot (``plant``), car and physics behind the simulated drivers.
 
     Args:
         geometry: The robot as drawn, which is what the drivers' users know.
@@ -77,7 +77,7 @@ class SimulatedWorld:
         self._platform_camera = built_mount(mount, parameters.build, self.streams.build)
         force_error = self.streams.build.normal(0.0, parameters.drives.force_scale_std)
         self._force_scale = 1.0 + float(force_error)
-        self._plant = built_plant(true_geometry, parameters, sag, self.streams.build)
+        self.plant = built_plant(true_geometry, parameters, sag, self.streams.build)
         self._force_limit_n = parameters.board.default_force_limit_n
         self._slide_jammed = False
         self._listeners: list[ConnectionListener] = []
@@ -133,7 +133,7 @@ class SimulatedWorld:
         """
         rng = np.random.default_rng(seed)
         parked = park(self.geometry, self.parameters.car, self.parameters.contact, rng)
-        self._drive(replace(parked, payload=self.car.payload))
+        self.put_car(replace(parked, payload=self.car.payload))
 
     def remove_car(self) -> None:
         """The car drives away.
@@ -168,7 +168,8 @@ class SimulatedWorld:
         """The label can be seen again."""
         self.spot.cover_label(covered=False)
 
-    def _drive(self, car: ParkedCar) -> None:
+    def put_car(self, car: ParkedCar) -> None:
+        """A car stands here now, as ``park_car`` puts one."""
         self._require_unplugged()
         self.spot.park(car)
         self._take_in(car)
@@ -197,7 +198,7 @@ class SimulatedWorld:
             return self._state
         if self.spot.moving is not None:
             self._socket = Socket(self.spot.at(now_s).T_base_socket, self._socket.contact)
-        self._state = self._plant.advance(self._state, self.line, self._surroundings, now_s)
+        self._state = self.plant.advance(self._state, self.line, self._surroundings, now_s)
         self._history.append(self._state)
         while self._history[0].t_s < now_s - HISTORY_S:
             self._history.popleft()
@@ -222,7 +223,7 @@ class SimulatedWorld:
         if t_s < start.t_s:
             before = (state for state in reversed(self._history) if state.t_s <= t_s)
             start = next(before, self._history[0])
-        return self._plant.advance(start, self.line, self._surroundings, t_s)
+        return self.plant.advance(start, self.line, self._surroundings, t_s)
 
     # --- the board's side --------------------------------------------------------------------
 
@@ -286,7 +287,7 @@ class SimulatedWorld:
             rho3_mm: Positions of that motor in the board's coordinates.
         """
         around = self._surroundings
-        return [self._plant.contact_force_n(self._state, around, motor) for motor in rho3_mm]
+        return [self.plant.contact_force_n(self._state, around, motor) for motor in rho3_mm]
 
     # --- the station's side ------------------------------------------------------------------
 
@@ -335,7 +336,7 @@ class SimulatedWorld:
     def view_at(self, t_s: float) -> CameraView:
         """The scene in the camera frame at a time of the recent past or the near future [s]."""
         return camera_view(
-            self._plant,
+            self.plant,
             self._state_at(t_s),
             self._platform_camera,
             self.spot.at(t_s),
@@ -345,6 +346,5 @@ class SimulatedWorld:
     def truth(self, at_s: float | None = None) -> GroundTruth:
         """The truth at a time, or when something was last worked out."""
         state = self._state if at_s is None else self.advance(at_s)
-        return ground_truth(
-            self._plant, state, self.car, self.parameters.contact, load_breaks=self.load_breaks
-        )
+        contact = self.parameters.contact
+        return ground_truth(self.plant, state, self.car, contact, load_breaks=self.load_breaks)

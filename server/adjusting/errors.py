@@ -2,7 +2,8 @@
 
 AdjustingError
 ├── FixedSettingError       this setting cannot be changed while PlugPilot runs
-└── ImpossibleSettingError  the settings cannot be so; the context names each
+├── ImpossibleSettingError  the settings cannot be so; the context names each
+└── NoSuchVersionError      that version is not kept
 """
 
 from __future__ import annotations
@@ -33,3 +34,12 @@ class ImpossibleSettingError(AdjustingError):
     title = "Some settings cannot be"
     status = 422
     remedy = "Correct the settings that are named and send the request again."
+
+
+class NoSuchVersionError(AdjustingError):
+    """That version of the settings is not kept."""
+
+    code = "no_such_version"
+    title = "This version of the settings is not kept"
+    status = 404
+    remedy = "Read the list of versions again."

@@ -5,14 +5,20 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Callable, Mapping
+from datetime import datetime
 from typing import Any
 
 from pydantic import JsonValue, ValidationError
 
-from server.adjusting.errors import FixedSettingError, ImpossibleSettingError
+from server.adjusting.errors import (
+    FixedSettingError,
+    ImpossibleSettingError,
+    NoSuchVersionError,
+)
+from server.adjusting.rehearsal import FieldTrouble, Rehearsal, differences, field_troubles
 from server.config.problems import describe
 from server.config.settings import Settings
-from server.storage.settings import ChangedSettingsStore
+from server.storage.settings import ChangedSettingsStore, Changes, SettingsVersion
 
 _log = logging.getLogger(__name__)
 
@@ -22,8 +28,6 @@ CHANGEABLE = ("charge_point", "logging", "webhooks")
 PROTECTING = {("webhooks", "allowed_networks")}
 """Protects the home from whoever may use the API, so it is not theirs to change."""
 
-Changes = dict[str, dict[str, JsonValue]]
-
 
 class RunningSettings:
     """Knows what holds now. Changes survive a restart and win over file and environment.
@@ -31,10 +35,14 @@ class RunningSettings:
     Args:
         initial: What PlugPilot was started with.
         store: Keeps the changes.
+        now: The date.
     """
 
-    def __init__(self, initial: Settings, store: ChangedSettingsStore) -> None:
+    def __init__(
+        self, initial: Settings, store: ChangedSettingsStore, now: Callable[[], datetime]
+    ) -> None:
         self.current = initial
+        self._now = now
         self._initial = initial
         self._store = store
         self._changes: Changes = {}
@@ -60,12 +68,14 @@ class RunningSettings:
         self,
         patch: Mapping[str, Mapping[str, JsonValue]],
         check: Callable[[Settings], None] = lambda _: None,
+        by: str = "",
     ) -> Settings:
         """Change some settings; null gives one its value of the start back (RFC 7396).
 
         Args:
             patch: Sections with their settings.
             check: May refuse the change after a look at the settings as they are.
+            by: Who wants it.
 
         Raises:
             FixedSettingError: one cannot be changed while PlugPilot runs; nothing has changed.
@@ -73,15 +83,59 @@ class RunningSettings:
             StorageError: they cannot be kept; nothing has changed.
         """
         _refuse_fixed(patch)
+        return await self._take(lambda: _merged(self._changes, patch), check, by)
+
+    async def restore(
+        self, number: int, check: Callable[[Settings], None], by: str = ""
+    ) -> Settings:
+        """Let everything hold again that held after an earlier change.
+
+        Args:
+            number: Of the version; 0 is what PlugPilot was started with.
+            check: May refuse the change after a look at the settings as they are.
+            by: Who wants it.
+
+        Raises:
+            NoSuchVersionError: it is not kept.
+            ImpossibleSettingError: they cannot be so any more; nothing has changed.
+            StorageError: they cannot be kept; nothing has changed.
+        """
+        changes: Changes = {}
+        if number != 0:
+            kept = [each for each in await self._store.versions() if each.number == number]
+            if not kept:
+                raise NoSuchVersionError(f"There is no version {number} of the settings.")
+            changes = kept[0].changes
+        return await self._take(lambda: changes, check, by)
+
+    async def versions(self) -> list[SettingsVersion]:
+        """What is kept of the past, the newest first."""
+        return await self._store.versions()
+
+    def rehearse(self, patch: Mapping[str, Mapping[str, JsonValue]]) -> Rehearsal:
+        """What a change would do, or what is wrong with it; nothing changes."""
+        try:
+            _refuse_fixed(patch)
+        except FixedSettingError as error:
+            return Rehearsal(troubles=[FieldTrouble("", error.detail)])
+        try:
+            then = _with(self._initial, _merged(self._changes, patch))
+        except ValidationError as error:
+            return Rehearsal(troubles=field_troubles(error))
+        return Rehearsal(differences=differences(self.current, then))
+
+    async def _take(
+        self, wanted: Callable[[], Changes], check: Callable[[Settings], None], by: str
+    ) -> Settings:
         async with self._one_at_a_time:
             check(self.current)
-            changes = _merged(self._changes, patch)
+            changes = wanted()
             try:
                 settings = _with(self._initial, changes)
             except ValidationError as error:
                 problems = [describe(problem, ()) for problem in error.errors()]
                 raise ImpossibleSettingError("; ".join(problems) + ".", problems=problems) from None
-            await self._store.save(changes)
+            await self._store.save(changes, self._now(), by)
             self._changes, self.current = changes, settings
         for listener in self._listeners:
             listener(settings)

@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
+from server.api.calibration_examples import CALIBRATION_MODELS, CALIBRATION_REQUESTS
+from server.api.technician_examples import TECHNICIAN_MODELS
 
 Json = Any
 
@@ -79,6 +81,8 @@ _DELIVERY: dict[str, Json] = {
 
 MODELS: dict[str, Json] = {
     **ACCESS_MODELS,
+    **TECHNICIAN_MODELS,
+    **CALIBRATION_MODELS,
     "ChargePoint": {
         "cp_state": "C",
         "enabled": True,
@@ -120,6 +124,7 @@ MODELS: dict[str, Json] = {
         "state": "move",
         "since": "2026-03-01T18:04:03.400Z",
         "arriving": True,
+        "reason": "rolls",
         "headline": "Go on forward",
         "detail": "Still 35 cm to go.",
         "remedy": "",
@@ -230,10 +235,12 @@ MODELS: dict[str, Json] = {
 
 BODIES: dict[str, Json] = {
     "patchConfig": {"webhooks": {"timeout_s": 5}, "logging": {"level": "debug"}},
+    "checkConfig": {"webhooks": {"timeout_s": 5}},
 }
 """Of requests whose body has no schema of its own name, by operation."""
 
 REQUESTS: dict[str, dict[str, Json]] = {
+    **CALIBRATION_REQUESTS,
     "commandSimulatedCar": {
         "drive_in": {
             "summary": "Come in, 20 cm beside the way, and stop at the place",

@@ -16,6 +16,8 @@ CONTENT_SECURITY_POLICY = (
     "img-src 'self' data: blob:; "
     "connect-src 'self'; "
     "frame-src 'self'; "
+    "worker-src 'self'; "
+    "manifest-src 'self'; "
     "frame-ancestors 'self'; "
     "base-uri 'none'; "
     "form-action 'none'"
@@ -33,11 +35,19 @@ _ASSET_HEADERS = {
     "Cache-Control": "public, max-age=31536000, immutable",
     "X-Content-Type-Options": "nosniff",
 }
+_WORKER_HEADERS = {
+    # It fetches the page for itself, and does nothing else.
+    "Content-Security-Policy": "default-src 'none'; connect-src 'self'",
+    "Cache-Control": "no-cache",
+    "X-Content-Type-Options": "nosniff",
+}
+_ICON_HEADERS = {"Cache-Control": "public, max-age=86400", "X-Content-Type-Options": "nosniff"}
 _MEDIA_TYPES = {
     ".css": "text/css; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
     ".svg": "image/svg+xml",
     ".png": "image/png",
+    ".webmanifest": "application/manifest+json",
     ".webp": "image/webp",
     ".woff2": "font/woff2",
 }
@@ -60,9 +70,9 @@ def pages_router(static_dir: Path) -> APIRouter:
     Files are read for every request, so that a new build shows without a restart.
 
     Args:
-        static_dir: What ``npm run build`` wrote: a file for each page and ``assets/`` with hashed
-            names, each with a ``.gz`` beside it where that is smaller. When it is missing, the
-            pages answer 503 and say what to do.
+        static_dir: What ``npm run build`` wrote: a file for each page, the service worker, the
+            manifest and its icons, and ``assets/`` with hashed names, each with a ``.gz`` beside
+            it where that is smaller. When it is missing, the pages answer 503 and say what to do.
     """
     router = APIRouter(include_in_schema=False)
 
@@ -76,14 +86,30 @@ def pages_router(static_dir: Path) -> APIRouter:
 
     @router.api_route("/assets/{name}", methods=["GET", "HEAD"])
     def asset(request: Request, name: str) -> Response:
-        file = static_dir / "assets" / name
-        media_type = _MEDIA_TYPES.get(file.suffix)
-        if media_type is None or not _ASSET_NAME.fullmatch(name) or not file.is_file():
-            return Response("There is no such file.", status_code=404, media_type="text/plain")
-        body, encoding = _contents(request, file)
-        return Response(body, media_type=media_type, headers=_ASSET_HEADERS | encoding)
+        return _file(request, static_dir / "assets", name, _ASSET_HEADERS)
+
+    @router.api_route("/icons/{name}", methods=["GET", "HEAD"])
+    def icon(request: Request, name: str) -> Response:
+        return _file(request, static_dir / "icons", name, _ICON_HEADERS)
+
+    @router.api_route("/manifest.webmanifest", methods=["GET", "HEAD"])
+    def manifest(request: Request) -> Response:
+        return _file(request, static_dir, "manifest.webmanifest", _ICON_HEADERS)
+
+    @router.api_route("/worker.js", methods=["GET", "HEAD"])
+    def worker(request: Request) -> Response:
+        return _file(request, static_dir, "worker.js", _WORKER_HEADERS)
 
     return router
+
+
+def _file(request: Request, folder: Path, name: str, headers: dict[str, str]) -> Response:
+    file = folder / name
+    media_type = _MEDIA_TYPES.get(file.suffix)
+    if media_type is None or not _ASSET_NAME.fullmatch(name) or not file.is_file():
+        return Response("There is no such file.", status_code=404, media_type="text/plain")
+    body, encoding = _contents(request, file)
+    return Response(body, media_type=media_type, headers=headers | encoding)
 
 
 def _page(request: Request, page: Path) -> Response:

@@ -23,6 +23,7 @@ from server.config.simulation import SimulationSettings
 from server.config.station import StationSettings
 from server.config.storage import StorageSettings
 from server.config.supervision import SupervisionSettings
+from server.config.tariff import TariffSettings
 from server.config.tls import TlsSettings
 from server.config.webhooks import WebhookSettings
 from twin.divergence import DivergenceNumbers
@@ -66,6 +67,7 @@ class Settings(BaseSettings):
     guidance: GuidanceSettings = GuidanceSettings()
     jobs: JobSettings = JobSettings()
     recordings: RecordingSettings = RecordingSettings()
+    tariff: TariffSettings = TariffSettings()
     charge_point: ChargePointSettings = ChargePointSettings()
     webhooks: WebhookSettings = WebhookSettings()
     simulation: SimulationSettings = SimulationSettings()

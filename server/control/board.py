@@ -59,7 +59,7 @@ class Board:
         mode: Tells what the robot is doing.
 
     Attributes:
-        on_segments: Called with all segments that the board has accepted.
+        on_segments: Called with all segments that the board has accepted, in joints of the drawing.
     """
 
     def __init__(
@@ -82,14 +82,18 @@ class Board:
         except RobotDriverError as error:
             raise await self._explain(error) from error
 
-    async def push(self, segments: Sequence[Segment]) -> None:
+    async def push(self, segments: Sequence[Segment], *, drawn: Sequence[Segment]) -> None:
         """Send segments to the board's queue.
+
+        Args:
+            segments: In joints of the board.
+            drawn: The same in joints of the drawing.
 
         Raises:
             ControlError: the board refused, with the reason behind it.
         """
         await self.command(lambda: self.driver.push(segments))
-        self.on_segments(segments)
+        self.on_segments(drawn)
 
     async def home(self) -> None:
         """Home; whatever ends it early brings the robot to rest first.

@@ -17,8 +17,11 @@ ControlError
 ├── LateralMotionForbiddenError  the plug is, or may be, in the socket
 ├── PlugSeenInCarError           a person says it is free, the station sees it in a car
 ├── PlugNotSeenError             a person says it is in a car, the station sees none
+├── CalibrationHeldError         the same, and the calibration was to be changed
+├── CalibrationUnusableError     no robot like the drawn one is built like that
 ├── MotionOutOfReachError        joint limit, workspace or singularity
 ├── ActuatorOverloadError        an actuator cannot hold what the motion asks of it
+├── TargetGoneError              nobody wants to go there any more, or not from here
 ├── ForceLimitError              the force along the insertion axis went over its limit
 │   └── ForceAboveBandError      it is more than the plug may meet at this depth
 ├── ForceBelowBandError          it is less: the plug is not in the socket
@@ -187,6 +190,22 @@ class PlugNotSeenError(ControlError):
     )
 
 
+class CalibrationHeldError(ControlError):
+    """The calibration cannot change while the plug is, or may be, in a socket."""
+
+    code = "calibration_held"
+    title = "The calibration cannot be changed now"
+    remedy = "Unplug first. If the plug hangs free, confirm that on the page."
+
+
+class CalibrationUnusableError(ControlError):
+    """The numbers of a calibration belong to no robot like the drawn one."""
+
+    code = "calibration_unusable"
+    title = "The robot cannot move with this calibration"
+    remedy = "Calibrate the robot again, or correct the numbers."
+
+
 class MotionOutOfReachError(ControlError):
     """The motion would leave the joint limits or the workspace."""
 
@@ -204,6 +223,14 @@ class ActuatorOverloadError(ControlError):
         "Choose a target further away from the rail, where the legs stand steeper, or let the "
         "cable hang from a hook. If the numbers are wrong, correct [loads] and [actuators]."
     )
+
+
+class TargetGoneError(ControlError):
+    """The place that was chosen is not the target any more."""
+
+    code = "target_gone"
+    title = "That way is not valid any more"
+    remedy = "Choose the place again, and look at the new way."
 
 
 class ForceLimitError(ControlError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Literal
 
@@ -45,7 +46,7 @@ class Jog:
         self._supervisor = supervisor
         self._dead_man_s = dead_man_s
         self._task: asyncio.Task[None] | None = None
-        self._held: tuple[Axis, int] | None = None
+        self._held: Hashable | None = None
         self._deadline: asyncio.TimerHandle | None = None
 
     async def step(self, axis: Axis, distance_mm: float, speed_mm_s: float) -> None:
@@ -69,21 +70,39 @@ class Jog:
         Raises:
             ControlError: somebody else has control, or the robot may not or cannot go there.
         """
+
+        def plan() -> MotionPlan:
+            distance_mm = direction * self._way_left_mm(axis, direction)
+            return self._plan(axis, distance_mm, speed_mm_s)
+
+        self.hold_plan((axis, direction), plan)
+
+    def hold_plan(self, what: Hashable, make_plan: Callable[[], MotionPlan]) -> None:
+        """The button of a motion is held: begin it, or go on.
+
+        Anything else that is held first stops; the motion begins with the next call after the
+        robot has come to rest.
+
+        Args:
+            what: Names the motion: the same one as long as it is equal.
+            make_plan: Plans it from where the robot stands; asked only at its beginning.
+
+        Raises:
+            ControlError: somebody else has control, or the robot may not or cannot go there.
+        """
         if self._task is not None:
-            if self._held == (axis, direction):
+            if self._held == what:
                 self._restart_timer()
             else:
                 self.release()
             return
         lease = self._supervisor.acquire("jog", "A technician")
         try:
-            distance_mm = direction * self._way_left_mm(axis, direction)
-            plan = self._plan(axis, distance_mm, speed_mm_s)
-            motion = self._supervisor.start_motion(lease, plan)
+            motion = self._supervisor.start_motion(lease, make_plan())
         except BaseException:
             self._supervisor.give_back(lease)
             raise
-        self._held = (axis, direction)
+        self._held = what
         self._task = asyncio.create_task(self._move(motion), name="jog")
         # Not in the task: one that is cancelled before its first step never runs.
         self._task.add_done_callback(partial(self._ended, lease))
@@ -100,6 +119,11 @@ class Jog:
         """Wait until the held motion has come to rest."""
         if self._task is not None:
             await asyncio.wait([self._task])
+
+    async def wait_released(self) -> None:
+        """Wait until a motion that nobody holds any more has come to rest."""
+        if self._held is None:
+            await self.wait_stopped()
 
     async def _move(self, motion: Motion) -> None:
         try:

@@ -22,6 +22,7 @@ class RobotLink:
     Args:
         driver: The motion board.
         telemetry: Fed with every sample, emptied when the link goes down.
+        seen: A sample as everybody else sees it.
         on_connected: Called with the first sample after every connection.
         on_sample: Called with every sample.
         on_lost: Called when the link goes down.
@@ -29,6 +30,7 @@ class RobotLink:
     Attributes:
         identity: What answered last, None before anything did.
         trouble: Why there is no link; None while there is one.
+        newest: The newest sample as the board gave it, None while there is no link.
     """
 
     def __init__(
@@ -36,14 +38,17 @@ class RobotLink:
         driver: RobotDriver,
         telemetry: Telemetry,
         *,
+        seen: Callable[[RobotState], RobotState],
         on_connected: OnSample,
         on_sample: OnSample,
         on_lost: Callable[[], None],
     ) -> None:
         self.identity: RobotIdentity | None = None
         self.trouble: RobotDriverError | None = None
+        self.newest: RobotState | None = None
         self._driver = driver
         self._telemetry = telemetry
+        self._seen = seen
         self._on_connected = on_connected
         self._on_sample = on_sample
         self._on_lost = on_lost
@@ -68,6 +73,11 @@ class RobotLink:
         self._lose()
         await self._driver.close()
 
+    def see_anew(self) -> None:
+        """Samples are seen differently from now on."""
+        if self.newest is not None:
+            self._telemetry.begin_anew(self._seen(self.newest))
+
     async def _run(self) -> None:
         while True:
             try:
@@ -86,7 +96,8 @@ class RobotLink:
 
     async def _read(self) -> None:
         first = True
-        async for state in self._driver.telemetry():
+        async for sample in self._driver.telemetry():
+            self.newest, state = sample, self._seen(sample)
             self._telemetry.put(state)
             if first:
                 await self._on_connected(state)
@@ -107,5 +118,6 @@ class RobotLink:
             _log.warning("the stop did not reach the motion board: %s", error)
 
     def _lose(self) -> None:
+        self.newest = None
         self._telemetry.lose()
         self._on_lost()

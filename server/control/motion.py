@@ -8,11 +8,11 @@ from collections.abc import Callable
 
 from drivers.robot import SEGMENT_NUMBERS, RobotIdentity, RobotState
 from server.control.board import MOVING, Board
+from server.control.built_robot import BuiltRobot, Step
 from server.control.errors import MotionRefusedError
 from server.control.finishing import finish
 from twin.joints import JointAcceleration
-from twin.motion import JointState, MotionPlan, plan_segments
-from twin.motion.segments import Segment
+from twin.motion import JointState, MotionPlan
 
 CHANGEABLE_LOOK_AHEAD = 8
 """Segments kept in the board of a motion whose target may change: 160 ms. Any other motion fills
@@ -38,6 +38,7 @@ class Motion:
         identity: Of the board.
         plan: What to do.
         watch: Sees every sample while it runs.
+        built: What the board's joints have to do for those of the plan.
         changeable: It may be retargeted on the way.
     """
 
@@ -48,6 +49,7 @@ class Motion:
         plan: MotionPlan,
         watch: Watch | None,
         *,
+        built: BuiltRobot,
         changeable: bool,
     ) -> None:
         self._board = board
@@ -64,10 +66,11 @@ class Motion:
         self._done_before: int | None = None
         self._pushed_at_s = 0.0
         self._push: asyncio.Task[None] | None = None
-        self._tail: Segment | None = None
+        self._built = built
+        self._tail: Step | None = None
         self._plan = plan
         self._sent_of_plan_s = 0.0
-        self._pending = deque(plan_segments(plan, self._segment_s))
+        self._pending = deque(built.steps(plan, self._segment_s))
 
     @property
     def plan(self) -> MotionPlan:
@@ -87,7 +90,7 @@ class Motion:
         """Continue differently from the end of what the board already has."""
         plan = replan(self._tail_state())
         self._plan, self._sent_of_plan_s = plan, 0.0
-        self._pending = deque(plan_segments(plan, self._segment_s))
+        self._pending = deque(self._built.steps(plan, self._segment_s))
 
     async def run(self) -> RobotState:
         """Feed the board until the plan's end is reached; return the last sample.
@@ -129,7 +132,7 @@ class Motion:
         pushed_at_s = self._pushed_at_s
         if self._pending or state.board in MOVING or state.sampled_at_s <= pushed_at_s:
             return False
-        end = self._tail.end if self._tail else self._plan.end.position
+        end = self._tail.drawn.end if self._tail else self._plan.end.position
         missing_mm = max(abs(a - b) for a, b in zip(state.commanded.position, end, strict=True))
         if missing_mm < ARRIVED_MM:
             return True
@@ -151,11 +154,11 @@ class Motion:
         batch = [self._pending.popleft() for _ in range(min(room, len(self._pending)))]
         self._tail = batch[-1]
         self._sent += len(batch)
-        self._sent_of_plan_s += sum(segment.duration_s for segment in batch)
+        self._sent_of_plan_s += sum(step.drawn.duration_s for step in batch)
         self._push = asyncio.create_task(self._send(batch), name="push segments")
 
-    async def _send(self, batch: list[Segment]) -> None:
-        await self._board.push(batch)
+    async def _send(self, batch: list[Step]) -> None:
+        await self._board.push([step.board for step in batch], drawn=[step.drawn for step in batch])
         self._pushed_at_s = asyncio.get_running_loop().time()
 
     def _look_at_push(self) -> None:
@@ -168,7 +171,7 @@ class Motion:
         if self._tail is None:
             return 0
         age_s = asyncio.get_running_loop().time() - state.sampled_at_s
-        return int(age_s / self._tail.duration_s)
+        return int(age_s / self._tail.drawn.duration_s)
 
     def _done(self, state: RobotState) -> int:
         """Segments of this motion that the board had finished at a sample."""
@@ -180,9 +183,10 @@ class Motion:
         if self._tail is None:
             return self._plan.start
         at_rest = self._sent_of_plan_s >= self._plan.duration_s - 1e-9
+        position, velocity = self._built.tail(self._tail)
         return JointState(
-            self._tail.end,
-            self._tail.end_velocity,
+            position,
+            velocity,
             JointAcceleration(0.0, 0.0, 0.0)
             if at_rest
             else self._plan.acceleration_at(self._sent_of_plan_s),

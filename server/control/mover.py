@@ -7,6 +7,7 @@ from collections.abc import AsyncIterator, Callable
 
 from drivers.robot import RobotIdentity, RobotState
 from server.control.board import Board
+from server.control.built_robot import BuiltRobot
 from server.control.errors import ControlError, RobotOfflineError
 from server.control.lease import Lease
 from server.control.load_guard import LoadGuard
@@ -23,13 +24,16 @@ class Mover:
 
     Args:
         board: Executes them.
-        geometry: Calibrated geometry.
-        limits: What motions are planned with.
+        geometry: The robot as drawn.
+        limits: Of the board.
         plug: Where the plug is.
         load: Proves that no current flows.
         strength: What the robot carries, and what its actuators can.
         hindrance: Tells what stands in the way of any motion.
         identity: Of the board; None before it has answered.
+
+    Attributes:
+        built: The robot as it is built, which the board moves.
     """
 
     def __init__(
@@ -45,7 +49,8 @@ class Mover:
         identity: Callable[[], RobotIdentity | None],
     ) -> None:
         self.geometry = geometry
-        self.limits = limits
+        self.built = BuiltRobot()
+        self._limits = limits
         self.telemetry = board.telemetry
         self.plug = plug
         self.load = load
@@ -57,6 +62,11 @@ class Mover:
         self._motion: Motion | None = None
         self._homing = False
         self._halt_now: Callable[[], None] = lambda: None
+
+    @property
+    def limits(self) -> MotionLimits:
+        """What motions are planned with."""
+        return self.built.limits(self._limits)
 
     @property
     def plan(self) -> MotionPlan | None:
@@ -80,11 +90,13 @@ class Mover:
         problem = self._hindrance()
         if problem is not None:
             raise problem
-        check_path(self.geometry, self.plug, plan, self.strength)
+        self._check(plan)
         identity = self._identity()
         if identity is None:
             raise RobotOfflineError("The motion board has not identified itself yet.")
-        self._motion = Motion(self._board, identity, plan, watch, changeable=changeable)
+        self._motion = Motion(
+            self._board, identity, plan, watch, built=self.built, changeable=changeable
+        )
         return self._motion
 
     async def run(self, motion: Motion) -> RobotState:
@@ -142,12 +154,16 @@ class Mover:
 
         def replan(start: JointState) -> MotionPlan:
             plan = plan_joint_move(self.limits, start, target)
-            check_path(self.geometry, self.plug, plan, self.strength)
+            self._check(plan)
             return plan
 
         motion.retarget(replan)
 
     # Inside
+
+    def _check(self, plan: MotionPlan) -> None:
+        check_path(self.geometry, self.plug, plan, self.strength)
+        self.built.check_travel(plan)
 
     def _require_no_load(self) -> None:
         if self.plug.state in HELD:

@@ -14,6 +14,7 @@ from drivers.robot import (
     FaultCode,
     RobotDriver,
     RobotDriverError,
+    RobotIdentity,
     RobotState,
     StopCategory,
 )
@@ -21,7 +22,8 @@ from drivers.station import StationDriver
 from server.config.supervision import SupervisionSettings
 from server.control import modes
 from server.control.board import Board, OnSegments
-from server.control.errors import ControlError, LateralMotionForbiddenError
+from server.control.built_robot import BuiltRobot
+from server.control.errors import CalibrationHeldError, ControlError, LateralMotionForbiddenError
 from server.control.evidence import settle_plug
 from server.control.lease import Lease, LeaseDesk
 from server.control.link import RobotLink
@@ -37,6 +39,7 @@ from server.control.release import ReleaseCondition
 from server.control.stop_cause import StopCause
 from server.control.telemetry import Telemetry
 from server.timing import Calendar
+from twin.as_built import PlanarAsBuilt
 from twin.geometry import RobotGeometry
 from twin.motion import MotionLimits
 
@@ -46,13 +49,14 @@ class Supervisor(Mover):
 
     Args:
         driver: The motion board.
-        geometry: Calibrated geometry.
+        geometry: The robot as drawn.
         limits: What motions are planned with.
         plug_store: Where the plug's state survives.
         calendar: Dates for what people see.
         station: The charging station: the plug moves in a socket only while it shows no load.
         settings: Of the watchdogs.
         strength: What the robot carries, and what its actuators can.
+        mechanism: The robot as it was built; None: as drawn.
     """
 
     def __init__(
@@ -66,6 +70,7 @@ class Supervisor(Mover):
         station: StationDriver,
         settings: SupervisionSettings,
         strength: Strength = DEFAULT_STRENGTH,
+        mechanism: PlanarAsBuilt | None = None,
     ) -> None:
         telemetry = Telemetry()
         plug = PlugGuard(plug_store, self._changed)
@@ -80,6 +85,7 @@ class Supervisor(Mover):
             hindrance=self.why_not_moving,
             identity=lambda: self._link.identity,
         )
+        self.built = BuiltRobot.of(geometry, mechanism)
         self._driver = driver
         self._witness = PlugWitness(plug, station, settings)
         self._desk = LeaseDesk(calendar)
@@ -91,6 +97,7 @@ class Supervisor(Mover):
         self._link = RobotLink(
             driver,
             self.telemetry,
+            seen=self._seen,
             on_connected=lambda state: settle_plug(self.plug, state, first=True),
             on_sample=self._take_sample,
             on_lost=self._lost,
@@ -136,6 +143,16 @@ class Supervisor(Mover):
     def name(self) -> str:
         """Name of the robot at the other end, as far as known."""
         return self._link.identity.name if self._link.identity else "not connected"
+
+    @property
+    def identity(self) -> RobotIdentity | None:
+        """How the robot at the other end has introduced itself; None before it has."""
+        return self._link.identity
+
+    @property
+    def board_state(self) -> RobotState | None:
+        """The newest sample in the board's own joints, None while there is no link."""
+        return self._link.newest
 
     @property
     def link_trouble(self) -> RobotDriverError | None:
@@ -265,6 +282,23 @@ class Supervisor(Mover):
             self._homing = False
         await self.plug.is_free()
 
+    def use_mechanism(self, lease: Lease, mechanism: PlanarAsBuilt | None) -> None:
+        """From now on the robot is built like this; None: as drawn. Nothing moves by it.
+
+        Raises:
+            CalibrationHeldError: the plug is, or may be, in a socket, and its way out is known in
+                the joints that count now.
+            CalibrationUnusableError: no robot like the drawn one is built like that.
+        """
+        lease.require()
+        if self.plug.state in HELD:
+            raise CalibrationHeldError(
+                f"The plug is {self.plug.state.value}.", plug=self.plug.state.value
+            )
+        self.built = BuiltRobot.of(self.geometry, mechanism)
+        self._link.see_anew()
+        self._changed()
+
     async def halt(self, lease: Lease) -> None:
         """Bring the robot to rest (category 2) without latching anything."""
         lease.require()
@@ -300,6 +334,9 @@ class Supervisor(Mover):
         self._protection.take(state)
         await settle_plug(self.plug, state, first=False)
         self._changed()
+
+    def _seen(self, state: RobotState) -> RobotState:
+        return self.built.seen(state)  # as it is built at that moment
 
     def _lost(self) -> None:
         self._protection.lose()

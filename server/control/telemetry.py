@@ -43,6 +43,11 @@ class Telemetry:
         if waiting is not None and not waiting.done():
             waiting.set_result(state)
 
+    def begin_anew(self, state: RobotState) -> None:
+        """Joints count differently from this sample on: forget the older ones."""
+        self._history.clear()
+        self.put(state)
+
     def lose(self) -> None:
         """The link went down: forget everything and tell whoever waits."""
         self._history.clear()

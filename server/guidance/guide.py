@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivers.camera import CameraDriver, CameraError, Frame
+from drivers.camera import CameraDriver, CameraError, CameraModel, Frame
 from server.config.settings import Settings
 from server.control.supervisor import Supervisor
 from server.guidance.advice import Advice, Adviser
@@ -28,6 +28,7 @@ from server.localisation.frames import Pose, base_from_camera, inverse
 from server.schema.vehicles import Vehicle
 from server.storage.vehicles import VehicleStore
 from server.vision.errors import VisionError
+from twin.camera_mount import CameraMount
 from twin.joints import JointPosition
 
 _log = logging.getLogger(__name__)
@@ -88,8 +89,7 @@ class Guide:
         self._settings = settings.guidance
         self._watched = watched
         self._speed = speed
-        self._sight = LabelSight(settings.camera.optics, settings.geometry)
-        self._vanishing = Vanishing(settings.camera.optics, settings.geometry)
+        self.recalibrate(settings.camera.optics, settings.camera.mount)
         self._adviser = self._new_adviser()
         self._track: CarTrack | None = None
         self._still_since_s: float | None = None
@@ -99,6 +99,12 @@ class Guide:
         self._known: tuple[float, list[Vehicle]] = (-math.inf, [])
         self._listeners: list[Callable[[], None]] = []
         self._task: asyncio.Task[None] | None = None
+
+    def recalibrate(self, optics: CameraModel, mount: CameraMount) -> None:
+        """From now on the camera is like this."""
+        self._mount = mount
+        self._sight = LabelSight(optics, self._all.geometry)
+        self._vanishing = Vanishing(optics, self._all.geometry)
 
     async def start(self) -> None:
         """Begin to look whenever somebody watches."""
@@ -159,7 +165,7 @@ class Guide:
 
     async def _look(self, frame: Frame, vehicles: list[Vehicle]) -> None:
         joints = self._supervisor.telemetry.joints_at(frame.captured_at_s)
-        T_base_camera = base_from_camera(self._all.geometry, self._all.camera.mount, joints)
+        T_base_camera = base_from_camera(self._all.geometry, self._mount, joints)
         self._looked_at_s = frame.captured_at_s
         try:
             found = await asyncio.to_thread(

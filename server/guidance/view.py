@@ -27,6 +27,7 @@ def view_of(now: guide.Guidance, reach: Reach, settings: Settings, calendar: Cal
         state=advice.state.value,
         since=calendar.at(advice.since_s),
         arriving=now.arriving,
+        reason=advice.words.reason.value,
         headline=advice.words.headline,
         detail=advice.words.detail,
         remedy=advice.words.remedy,

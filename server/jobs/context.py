@@ -5,11 +5,13 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from datetime import datetime
 
 from drivers.station import StationDriver
 from server.config.settings import Settings
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
+from server.jobs.cost import CostMeter
 from server.jobs.journal import Journal
 from server.localisation.eye import Eye
 from server.localisation.socket_pose import SocketPose
@@ -37,6 +39,7 @@ class JobContext:
         finish: Set when somebody wants the charging to end now.
         socket: The socket as last measured.
         energy_wh: Energy charged so far; None before the charging began.
+        cost: What that costs; None before the charging began, and without a tariff.
         on_sighting: Shows every new pose of the socket.
     """
 
@@ -54,7 +57,28 @@ class JobContext:
     finish: asyncio.Event = field(default_factory=asyncio.Event)
     socket: SocketPose | None = None
     energy_wh: float | None = None
+    cost: CostMeter | None = None
     on_sighting: Callable[[SocketPose], None] = lambda _: None
+
+    def count_cost(self) -> None:
+        """Count the cost from what is kept: a job that goes on has cost something already."""
+        tariff, known = self.settings.tariff, self.journal.job
+        if tariff.currency is None:
+            return
+        self.cost = CostMeter(
+            tariff,
+            energy_wh=known.result.energy_wh or 0.0,
+            cost=known.result.cost or 0.0,
+            at=known.result.cost_at or self.calendar.now(),
+        )
+
+    @property
+    def cost_so_far(self) -> dict[str, float | str | datetime]:
+        """Of the job's result; empty where no cost is counted."""
+        currency = self.settings.tariff.currency
+        if self.cost is None or currency is None:
+            return {}
+        return {"cost": round(self.cost.cost, 4), "currency": currency, "cost_at": self.cost.at}
 
     def see(self, socket: SocketPose) -> None:
         """Take over a new pose of the socket and show it."""

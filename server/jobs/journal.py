@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Callable
+from datetime import datetime
 from typing import Any
 
 from server.errors import PlugPilotError
@@ -111,9 +112,9 @@ class Journal:
         """What the whole journal says, entries of earlier runs of PlugPilot included."""
         return history_of(await self._store.events(self.job.id))
 
-    async def charged(self, energy_wh: float) -> None:
-        """Keep how much energy has flowed so far; no entry of its own."""
-        result = self.job.result.model_copy(update={"energy_wh": round(energy_wh, 1)})
+    async def charged(self, energy_wh: float, **cost: float | str | datetime) -> None:
+        """Keep how much energy has flowed so far, and its cost; no entry of its own."""
+        result = self.job.result.model_copy(update={"energy_wh": round(energy_wh, 1), **cost})
         self.job = self.job.model_copy(
             update={"result": result, "updated_at": self._calendar.now()}
         )

@@ -56,6 +56,7 @@ class JobRunner:
         vehicles: Where vehicles are kept.
         settings: The whole configuration.
         calendar: Dates.
+        as_taught: Puts the socket of a vehicle where it was taught.
     """
 
     def __init__(
@@ -68,6 +69,7 @@ class JobRunner:
         vehicles: VehicleStore,
         settings: Settings,
         calendar: Calendar,
+        as_taught: Callable[[Vehicle], Vehicle] = lambda vehicle: vehicle,
     ) -> None:
         self.newest: Job | None = None
         self.socket: SocketPose | None = None
@@ -78,6 +80,7 @@ class JobRunner:
         self._vehicles = vehicles
         self._settings = settings
         self._calendar = calendar
+        self._as_taught = as_taught
         self._listeners: list[Callable[[], None]] = []
         self._readers: list[Callable[[Job, JobEvent], None]] = []
         self._accepting = asyncio.Lock()
@@ -251,7 +254,7 @@ class JobRunner:
             lease=lease,
             eye=self._eye,
             station=self._station,
-            vehicle=vehicle,
+            vehicle=self._as_taught(vehicle) if vehicle else None,
             settings=self._settings,
             journal=journal,
             accepted_at_s=asyncio.get_running_loop().time(),

@@ -6,21 +6,32 @@ from drivers.station import PilotState
 from server.services import Services
 from twin.scene import PlannedPath, TwinHost
 from twin.scene.planned_path import Way
-from twin.scene.state import TwinState
+from twin.scene.state import ChosenTarget, TwinState
 
 
 def feed_twin(services: Services, host: TwinHost) -> None:
     """Hand every change over to the picture, which shows the newest."""
-    way = Way(services.supervisor.geometry)
+    geometry, targets = services.supervisor.geometry, services.technician.targets
+    way, way_to_target = Way(geometry), Way(geometry)
+    shown: list[ChosenTarget | None] = [None]
 
     def publish() -> None:
-        host.publish(twin_state(services, way.of(services.supervisor.plan)))
+        target = targets.target
+        path = way_to_target.of(target.plan if target else None)
+        if target is None or path is None:
+            shown[0] = None
+        elif shown[0] is None or shown[0].path is not path:
+            shown[0] = ChosenTarget(target.plan.end.position, path)
+        host.publish(twin_state(services, way.of(services.supervisor.plan), shown[0]))
 
     services.supervisor.listen(publish)
+    services.technician.targets.listen(publish)
     services.runner.listen(publish)
 
 
-def twin_state(services: Services, path: PlannedPath | None = None) -> TwinState:
+def twin_state(
+    services: Services, path: PlannedPath | None = None, target: ChosenTarget | None = None
+) -> TwinState:
     """What the picture shows now."""
     supervisor, socket = services.supervisor, services.runner.socket
     state = supervisor.telemetry.latest
@@ -36,5 +47,6 @@ def twin_state(services: Services, path: PlannedPath | None = None) -> TwinState
         T_base_label=socket.T_base_label if socket else None,
         socket_covariance_mm2=socket.covariance if socket else None,
         path=path,
+        target=target,
         parted=tuple(parted.quantity.value for parted in services.divergence.parted),
     )

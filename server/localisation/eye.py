@@ -64,6 +64,12 @@ class Eye:
         self._size = LabelSizeCheck()
         self._refusal: Refusal | None = None
 
+    def recalibrate(self, optics: CameraModel, mount: CameraMount) -> None:
+        """From now on the camera is like this. What the looks said of the label is forgotten."""
+        self.optics, self.mount = optics, mount
+        self._locator = Locator(optics)
+        self._size = LabelSizeCheck()
+
     def listen(self, listener: OnSighting) -> None:
         """Call ``listener`` with every pose and the picture it came from (the last of several)."""
         self._listeners.append(listener)
@@ -118,6 +124,28 @@ class Eye:
             AmbiguousLabelError: the label is there more than once.
             ImplausiblePlaceError: it is where no parked car is.
         """
+        averaged = await self._average(vehicle, frames, expected)
+        if averaged is None:
+            return None
+        sighting, frame = averaged
+        return await self._socket(sighting, frame, vehicle, still=True)
+
+    async def sight(self, vehicle: Vehicle, frames: int) -> LabelPose | None:
+        """Average the label itself in the camera frame, at standstill, whatever the robot is like.
+
+        Returns:
+            Its pose, or None when fewer than half of the pictures show it; ``refusal`` says why.
+
+        Raises:
+            CameraDownError, PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError: as in
+                ``measure``.
+        """
+        averaged = await self._average(vehicle, frames, None)
+        return None if averaged is None else averaged[0]
+
+    async def _average(
+        self, vehicle: Vehicle, frames: int, expected: SocketPose | None
+    ) -> tuple[LabelPose, Frame] | None:
         sightings: list[LabelPose] = []
         doubts: list[Refusal] = []
         for _ in range(frames):
@@ -128,7 +156,7 @@ class Eye:
             elif isinstance(self._refusal, _DOUBTS):
                 doubts.append(self._refusal)
         if sightings and 2 * len(sightings) >= frames:
-            return await self._socket(combine(sightings), frame, vehicle, still=True)
+            return combine(sightings), frame
         if 2 * len(doubts) >= frames:
             raise doubts[-1]
         return None

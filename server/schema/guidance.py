@@ -11,6 +11,42 @@ from server.schema.base import Timestamp, Wire
 State = Literal[
     "paused", "searching", "unreadable", "lost", "move", "stop", "good", "thin", "skewed"
 ]
+Reason = Literal[
+    "disabled",
+    "robot_offline",
+    "robot_busy",
+    "robot_not_homed",
+    "robot_not_parked",
+    "plug_held",
+    "camera_down",
+    "nothing",
+    "too_far",
+    "too_dirty",
+    "too_dark",
+    "too_bright",
+    "other_label",
+    "twice",
+    "mirrored",
+    "no_vehicle",
+    "hidden",
+    "left_at_left",
+    "left_at_right",
+    "left_at_top",
+    "left_at_bottom",
+    "rolls",
+    "too_fast",
+    "askew",
+    "stands",
+    "too_low",
+    "too_high",
+    "stop",
+    "good",
+    "good_flawed",
+    "thin",
+    "skewed",
+    "skewed_left",
+    "skewed_right",
+]
 Point = tuple[float, float]
 
 
@@ -65,6 +101,7 @@ class Guidance(Wire):
     arriving: bool = Field(
         description="A car is on its way in, or has just stopped: show it by itself"
     )
+    reason: Reason = Field(description="What is said, for pages in another language")
     headline: str
     detail: str
     remedy: str = Field(description="What to do about a problem; empty without one")

@@ -82,6 +82,11 @@ class JobResult(Wire):
     )
     max_force_n: float | None = Field(default=None, description="Largest insertion force")
     energy_wh: float | None = Field(default=None, description="Energy charged")
+    cost: float | None = Field(
+        default=None, description="Of that energy, in the currency; null without a tariff"
+    )
+    currency: str | None = Field(default=None, description="ISO 4217, of the cost")
+    cost_at: Timestamp | None = Field(default=None, description="Up to when the cost is counted")
     plugged_after_s: float | None = Field(
         default=None, description="From acceptance of the job to the plug seated"
     )

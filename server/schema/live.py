@@ -17,6 +17,7 @@ from server.schema.guidance import Guidance
 from server.schema.jobs import Job
 from server.schema.problem import Problem
 from server.schema.robot import JogStep, Robot
+from server.schema.routines import CalibrationNow
 from server.schema.station import Station
 
 PROTOCOL_VERSION: Literal[1] = 1
@@ -58,6 +59,7 @@ class Live(Wire):
     twin: TwinReport = TwinReport()
     guidance: Guidance | None = None
     queue: Queue = Queue()
+    calibration: CalibrationNow = CalibrationNow()
 
 
 class LiveChanges(Wire):
@@ -70,6 +72,7 @@ class LiveChanges(Wire):
     twin: TwinReport | None = None
     guidance: Guidance | None = None
     queue: Queue | None = None
+    calibration: CalibrationNow | None = None
 
 
 class SnapshotMessage(Wire):
@@ -141,6 +144,17 @@ class JogStepMessage(Wire):
     step: JogStep
 
 
+class MoveToMessage(Wire):
+    """Hold to follow the way to a target: send it every 100 ms while the button is held.
+
+    250 ms without one, ``jog_end``, or a closed connection stops the motion.
+    """
+
+    type: Literal["move_to"] = "move_to"
+    id: int | None = None
+    target_id: Annotated[str, Field(min_length=1, max_length=64)]
+
+
 class JogEndMessage(Wire):
     """The button was released."""
 
@@ -160,6 +174,7 @@ ClientMessage = Annotated[
     | EmergencyStopMessage
     | JogMessage
     | JogStepMessage
+    | MoveToMessage
     | JogEndMessage
     | ResyncMessage,
     Field(discriminator="type"),

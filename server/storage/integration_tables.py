@@ -62,7 +62,7 @@ class ChargePointRow(Base):
 
 
 class ChangedSettingsRow(Base):
-    """Settings that were changed while PlugPilot ran: one row."""
+    """Settings that were changed while PlugPilot ran: what holds, and versions of the past."""
 
     __tablename__ = "changed_settings"
 

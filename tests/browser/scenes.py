@@ -211,6 +211,11 @@ SCENES: dict[str, Live] = {
         unplug_by=NOW + timedelta(hours=13),
     ),
     "disk_full": _unsaved(_with_next(live(_IN), JobType.UNPLUG, paused=True)),
+    "charging_priced": live(
+        _IN,
+        job(JobPhase.CHARGING, seconds=5025, result=JobResult(cost=14.37, currency="EUR")),
+        station(10_980, 15_340),
+    ),
     "withdrawing": live(
         robot(RobotMode.MOVING, PlugState.INSERTED),
         job(JobPhase.WITHDRAWING, JobType.UNPLUG),

@@ -1,40 +1,122 @@
-"""Pictures of the pages in every state: ``python -m tests.browser.shots FOLDER [STATE...]``."""
+"""Pictures of the pages in every state: ``python -m tests.browser.shots FOLDER [STATE...]``.
+
+The home page is shown in four languages, the technician's page in English.
+"""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Mapping
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Literal
 
+from playwright.sync_api import Page
+
+from server.schema.live import Live
 from tests.browser.chromium import DESKTOP, PHONE, chromium
+from tests.browser.guidance_scenes import SCENES as GUIDANCE
+from tests.browser.languages import LOCALES
 from tests.browser.scenes import SCENES
-from tests.browser.stage import Stage, serve
+from tests.browser.stage import OWNER, STRANGER, Stage, serve
 
 SIZES = {"phone": PHONE, "desktop": DESKTOP}
-PAGES = {"home": "/", "technician": "/technician"}
 SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
+STATES: Mapping[str, Live] = {
+    **SCENES,
+    **{
+        f"guidance-{name}": SCENES["ready"].model_copy(update={"guidance": guidance})
+        for name, guidance in GUIDANCE.items()
+    },
+}
+
+
+def _plan(page: Page) -> None:
+    page.locator(".hero-action .button.text").click()
+    page.locator("dialog").wait_for()
+
+
+def _question(page: Page) -> None:
+    page.locator(".hero-action .button.primary").click()
+    page.locator("dialog").wait_for()
+
+
+def _history(page: Page) -> None:
+    page.locator(".history summary").click()
+    page.locator(".past button").wait_for()
+
+
+def _replay(page: Page) -> None:
+    _history(page)
+    page.locator(".past button").click()
+    page.locator(".player-bar").wait_for()
+
+
+def _robot(page: Page) -> None:
+    page.locator(".robot summary").click()
+    page.locator(".robot dl").scroll_into_view_if_needed()
+
+
+OPENED: Mapping[str, tuple[str, Callable[[Page], None]]] = {
+    "plan": ("ready", _plan),
+    "release": ("stopped", _question),
+    "plug-question": ("unknown", _question),
+    "history": ("ready", _history),
+    "replay": ("ready", _replay),
+    "robot": ("charging", _robot),
+}
+"""What is opened on the home page, each with the state it is opened in."""
 
 
 def main() -> None:
-    """Writes FOLDER/<page>-<state>-<size>-<scheme>.png."""
+    """Writes FOLDER/<page>-<state>-<language>-<size>-<scheme>.png."""
     folder, *names = sys.argv[1:]
     stage = Stage()
     with serve(stage) as address, chromium() as browser:
-        for size, viewport in SIZES.items():
-            for scheme in SCHEMES:
-                page = browser.new_page(
-                    viewport={"width": viewport["width"], "height": viewport["height"]},
-                    color_scheme=scheme,
-                    device_scale_factor=1,
-                    reduced_motion="reduce",
-                )
-                for (which, path), name in product(PAGES.items(), names or SCENES):
-                    stage.live = SCENES[name]
-                    page.goto(address + path)
+        for size, scheme, language in product(SIZES, SCHEMES, LOCALES):
+            page = browser.new_page(
+                viewport={"width": SIZES[size]["width"], "height": SIZES[size]["height"]},
+                color_scheme=scheme,
+                locale=LOCALES[language],
+                device_scale_factor=1,
+                reduced_motion="reduce",
+            )
+            shoot = partial(_shoot, page, Path(folder), f"{language}-{size}-{scheme}")
+            for name in names or (*STATES, *OPENED):
+                state, opened = OPENED.get(name, (name, None))
+                stage.live = STATES[state]
+                page.goto(address)
+                page.locator(".link[data-link=live]").wait_for()
+                if opened is not None:
+                    opened(page)
+                shoot(f"home-{name}")
+                if language == "en" and opened is None:
+                    page.goto(f"{address}/technician")
                     page.locator(".link[data-link=live]").wait_for()
-                    page.screenshot(path=Path(folder) / f"{which}-{name}-{size}-{scheme}.png")
-                page.close()
+                    shoot(f"technician-{name}")
+            if not names:
+                _shoot_without_a_robot(page, stage, address, shoot)
+            page.close()
+
+
+def _shoot_without_a_robot(
+    page: Page, stage: Stage, address: str, shoot: Callable[[str], None]
+) -> None:
+    """The way in, and the page that cannot reach its robot."""
+    stage.session = STRANGER
+    page.goto(address)
+    page.locator(".door-form").wait_for()
+    shoot("pairing")
+    stage.session = OWNER
+    page.route("**/api/**", lambda route: route.abort())
+    page.goto(address)
+    page.locator(".away").wait_for()
+    shoot("away")
+
+
+def _shoot(page: Page, folder: Path, kind: str, name: str) -> None:
+    page.screenshot(path=folder / f"{name}-{kind}.png")
 
 
 if __name__ == "__main__":

@@ -44,6 +44,10 @@ OWNER = AccessSession(
     screen=False,
 )
 
+STRANGER = AccessSession(
+    paired=False, person=None, device_id=None, rights=[], passkeys=False, screen=False
+)
+
 PAST_JOB = job(JobPhase.PARKING, state=JobState.SUCCEEDED).model_copy(
     update={"recording": RecordingInfo(size_bytes=1_500_000)}
 )
@@ -72,15 +76,17 @@ class Stage:
     Attributes:
         live: The state that every page sees.
         requests: Method and path of every REST call, in order.
+        session: Who looks at the page.
         refuse_jobs: Answer new jobs with a problem.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, static_dir: Path = STATIC_DIR) -> None:
         self.live: Live = SCENES["ready"]
+        self.session = OWNER
         self.requests: list[str] = []
         self.refuse_jobs = False
         self.app = FastAPI()
-        self.app.include_router(pages_router(STATIC_DIR))
+        self.app.include_router(pages_router(static_dir))
         self.app.websocket("/api/v1/ws")(self._send_live)
         self.app.get("/api/v1/access/session")(self._session)
         self.app.get("/api/v1/access/{entries}")(self._nothing)
@@ -114,13 +120,13 @@ class Stage:
         robot = self.live.robot.model_copy(update={"updated_at": updated_at})
         differing = {
             name: getattr(self.live, name)
-            for name in ("job", "station", "service", "twin", "queue")
+            for name in ("job", "station", "service", "twin", "queue", "guidance")
             if getattr(self.live, name) != getattr(shown, name)
         }
         return LiveChanges(robot=robot, **differing)
 
     async def _session(self) -> AccessSession:
-        return OWNER
+        return self.session
 
     async def _nothing(self, entries: str) -> dict[str, object]:
         del entries
@@ -152,9 +158,12 @@ class Stage:
 
 
 @contextmanager
-def serve(stage: Stage) -> Iterator[str]:
-    """Serves the stage from a thread of its own; gives its address."""
-    listener = socket.create_server(("127.0.0.1", 0))
+def serve(stage: Stage, port: int = 0) -> Iterator[str]:
+    """Serves the stage from a thread of its own, at a free port or a given one.
+
+    Gives its address.
+    """
+    listener = socket.create_server(("127.0.0.1", port))
     port = listener.getsockname()[1]
     config = uvicorn.Config(stage.app, log_level="warning", ws="websockets-sansio", lifespan="off")
     server = uvicorn.Server(config)

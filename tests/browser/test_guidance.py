@@ -77,6 +77,9 @@ def test_a_driver_parks_by_the_phone(phone: Page, server: ServerProcess) -> None
     with server.rest() as client:
         phone.goto(server.url)
         phone.locator(".link[data-link=live]").wait_for(timeout=PATIENCE_MS)
+        _tell(client, type="leave")  # the car that stands there from the start has a place too
+        expect(phone.locator(f"{CARD} .order-number")).to_have_count(0, timeout=PATIENCE_MS)
+        expect(phone.locator(f"{CARD} .car-above")).to_have_count(0, timeout=PATIENCE_MS)
         _tell(client, type="drive_in", from_mm=3000, past_mm=25)
         number = phone.locator(f"{CARD} .order-number strong")
         number.wait_for(timeout=PATIENCE_MS)  # the card shows itself

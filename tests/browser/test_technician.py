@@ -21,6 +21,12 @@ MIN_TARGET_PX = 44
 
 UP = re.compile(r"^Up\b")
 RHO1 = ".values tbody tr:first-child td:nth-of-type(2)"
+HOLDS = 8
+"""On a busy machine the page's sign of life comes late, and the robot rightly stops on its way."""
+THERE_OR_LET_GO = """() => {
+    const button = document.querySelector(".target-hold");
+    return button === null || (button.dataset.held === "false" && !button.disabled);
+}"""
 BEYOND = """([cell, limit, sign]) =>
     sign * (parseFloat(document.querySelector(cell).textContent) - limit) > 0"""
 
@@ -115,6 +121,57 @@ def test_the_space_bar_stops_and_the_stop_is_released_here(
     expect(bench.get_by_role("button", name=UP)).to_be_enabled()
 
 
+def test_a_place_is_shown_first_and_reached_only_while_the_button_is_held(
+    bench: Page, server: ServerProcess
+) -> None:
+    tip = _tip(server)
+    bench.route("**/twin/**", lambda route: route.abort())  # software 3D would take the machine
+    bench.locator("summary", has_text="Twin").click()
+    bench.get_by_label("x, mm").fill(f"{tip['x_mm'] + 6:.1f}")
+    bench.get_by_label("y, mm").fill(f"{tip['y_mm'] + 3:.1f}")
+    bench.get_by_role("button", name="Show the way").click()
+    hold = bench.get_by_role("button", name="Hold to move there")
+    expect(hold).to_be_enabled()
+    assert _tip(server) == tip, "a preview moves nothing"
+    hold.hover()
+    bench.mouse.down()
+    expect(bench.locator(".robot-box .list dd").first).to_have_text("moving")
+    bench.mouse.up()
+    expect(hold).to_be_enabled()  # what is left of the way was asked for
+    between = _tip(server)
+    assert tip["x_mm"] < between["x_mm"] < tip["x_mm"] + 5
+    for _ in range(HOLDS):
+        hold.hover()
+        bench.mouse.down()
+        expect(bench.locator(".robot-box .list dd").first).to_have_text("moving")
+        bench.wait_for_function(THERE_OR_LET_GO)
+        bench.mouse.up()
+        if bench.get_by_text("The plug is there.").is_visible():
+            break
+        expect(hold).to_be_enabled()
+    assert abs(_tip(server)["x_mm"] - tip["x_mm"] - 6) < 0.2
+    assert abs(_tip(server)["y_mm"] - tip["y_mm"] - 3) < 0.2
+
+
+def test_the_camera_shows_the_label_and_its_pose(bench: Page) -> None:
+    bench.locator("summary", has_text="Camera").click()
+    expect(bench.locator(".camera-overlay[data-trusted=true] .outline")).to_be_visible(
+        timeout=20_000
+    )
+    expect(bench.get_by_text("passed every check")).to_be_visible()
+    assert violations(bench) == []
+
+
+def test_the_console_shows_what_a_step_sends(bench: Page) -> None:
+    bench.locator("summary", has_text="Protocol console").click()
+    bench.get_by_text("Listening.").wait_for()
+    bench.get_by_role("button", name="0.1", exact=True).click()
+    bench.get_by_role("button", name=re.compile(r"^Down,")).click()
+    bench.get_by_label("Search").fill("segments")
+    expect(bench.locator(".console-frames [data-direction=to_board]").first).to_be_visible()
+    assert violations(bench) == []
+
+
 @pytest.mark.parametrize("scene", ["ready", "jog", "emergency", "fault", "off", "offline"])
 def test_every_state_is_accessible_and_large_enough_to_touch(
     browser: Browser, address: str, stage: Stage, scene: str
@@ -142,6 +199,13 @@ def _rho1_mm(server: ServerProcess) -> float:
     with server.rest() as client:
         robot = client.get("robot").json()
     return float(robot["measured"]["joints"]["rho1_mm"])
+
+
+def _tip(server: ServerProcess) -> dict[str, float]:
+    with server.rest() as client:
+        robot = client.get("robot").json()
+    tip: dict[str, float] = robot["commanded"]["tip"]
+    return tip
 
 
 def _moves_beyond(page: Page, limit_mm: float, *, sign: int = 1) -> None:

@@ -168,4 +168,4 @@ def shift_car(
     label[:3, :3] = turn @ label[:3, :3]
     socket[:3, :3] = turn @ socket[:3, :3]
     socket[:3, 3] = centre + shift
-    garage.world._drive(replace(car, T_base_label=label, T_base_socket=socket))
+    garage.world.put_car(replace(car, T_base_label=label, T_base_socket=socket))

@@ -48,6 +48,7 @@ function guidance(changes: Partial<Guidance> = {}): Guidance {
     state: "move",
     since: START,
     arriving: true,
+    reason: "rolls",
     headline: "30 cm forward",
     detail: "Straight on.",
     remedy: "",
@@ -166,14 +167,14 @@ describe("the picture", () => {
 describe("the screen reader", () => {
   test("hears every state, and numbers only now and then", () => {
     const announcer = new Announcer();
-    expect(announcer.next(guidance(), 0)).toBe("30 cm forward. Straight on.");
+    expect(announcer.next(guidance(), guidance(), 0)).toBe("30 cm forward. Straight on.");
     const nearer = guidance({ headline: "25 cm forward", steps: [step("forward", 25)] });
-    expect(announcer.next(nearer, 100)).toContain("30 cm");
-    expect(announcer.next(nearer, 5000)).toContain("30 cm");
+    expect(announcer.next(nearer, nearer, 100)).toContain("30 cm");
+    expect(announcer.next(nearer, nearer, 5000)).toContain("30 cm");
     const near = guidance({ headline: "15 cm forward", steps: [step("forward", 15)] });
-    expect(announcer.next(near, 5100)).toContain("15 cm");
+    expect(announcer.next(near, near, 5100)).toContain("15 cm");
     const stop = guidance({ state: "stop", headline: "Stop", detail: "You are there.", steps: [] });
-    expect(announcer.next(stop, 5150)).toBe("Stop. You are there.");
+    expect(announcer.next(stop, stop, 5150)).toBe("Stop. You are there.");
   });
 });
 

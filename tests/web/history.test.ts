@@ -6,6 +6,7 @@ import type { Job } from "@/api/wire";
 import { formatSize } from "@/format";
 import { history, outcomeOf } from "@/jobs/history";
 import { chapterAt, chaptersOf, closeReplay, playbackAddress } from "@/jobs/replay";
+import { speak } from "@/language/catalogue";
 import { channel } from "@/live/page";
 import { FakeRest } from "./rest";
 import { FakeSocket } from "./socket";
@@ -157,6 +158,24 @@ describe("watching again", () => {
   });
 });
 
+describe("the cost", () => {
+  const result = { energy_wh: 21_480, cost: 6.444, currency: "EUR" };
+
+  test("stands beside the energy, as the reader's country writes money", async () => {
+    const priced = job({ state: "succeeded", result });
+    expect(outcomeOf(priced)).toBe("21.5 kWh for €6.44");
+    await speak("de");
+    expect(outcomeOf(priced)).toBe("21,5 kWh für 6,44\u00a0€");
+    await speak("en");
+  });
+
+  test("is left out where nobody has set a tariff", () => {
+    expect(outcomeOf(job({ state: "succeeded", result: { energy_wh: 21_480 } }))).toBe(
+      "21.5 kWh charged",
+    );
+  });
+});
+
 describe("robot and model", () => {
   const FOUND = {
     quantity: "rho3",
@@ -177,7 +196,7 @@ describe("robot and model", () => {
   test("are spoken of only when they have parted", async () => {
     FakeSocket.newest.says(snapshot(live({ twin: { divergences: [FOUND] } })));
     expect(await screen.findByText("Not as expected")).toBeTruthy();
-    expect(screen.getByText(FOUND.message, { exact: false })).toBeTruthy();
+    expect(screen.getByText("80.00 mm instead of 81.00 mm.", { exact: false })).toBeTruthy();
     FakeSocket.newest.says({
       type: "delta",
       sequence: 2,

@@ -1,4 +1,6 @@
 import { configure } from "@testing-library/preact";
+import { speak } from "@/language/catalogue";
+import "@/language/spoken";
 import type { DetachedWindowAPI } from "happy-dom";
 
 // The whole page in an error message hides the error.
@@ -10,3 +12,6 @@ settings.enableIframePageLoading = true;
 settings.fetch.interceptor = {
   beforeAsyncRequest: ({ window: page }) => Promise.resolve(new page.Response("<p>3D view</p>")),
 };
+
+// Most tests read English; another language is spoken by those that are about it.
+await speak("en");

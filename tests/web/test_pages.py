@@ -26,6 +26,10 @@ def static_dir(tmp_path: Path) -> Path:
     _write_packed(static / "assets" / "index-a1B2c3.js", SCRIPT)
     (static / "assets" / "index-d4E5f6.css").write_bytes(b"body{}")
     (static / "assets" / "notes.txt").write_bytes(b"not for the world")
+    (static / "icons").mkdir()
+    (static / "icons" / "icon-192.png").write_bytes(b"PNG")
+    (static / "manifest.webmanifest").write_bytes(b"{}")
+    _write_packed(static / "worker.js", SCRIPT)
     (tmp_path / "secret.js").write_bytes(b"secret")
     return static
 
@@ -84,8 +88,36 @@ async def test_policy_lets_no_foreign_or_inline_script_run(client: httpx.AsyncCl
     )
     assert policy["default-src"] == "'none'"
     assert policy["script-src"] == policy["style-src"] == policy["connect-src"] == "'self'"
+    assert policy["worker-src"] == policy["manifest-src"] == "'self'"
     assert policy["frame-src"] == policy["frame-ancestors"] == "'self'"
     assert not any("unsafe" in value or "*" in value for value in policy.values())
+
+
+async def test_worker_is_looked_at_every_time_and_may_fetch_the_page_only(
+    client: httpx.AsyncClient,
+) -> None:
+    response = await client.get("/worker.js")
+    assert response.content == SCRIPT
+    assert response.headers["content-type"] == "text/javascript; charset=utf-8"
+    assert response.headers["cache-control"] == "no-cache"
+    policy = response.headers["content-security-policy"]
+    assert policy == "default-src 'none'; connect-src 'self'"
+
+
+@pytest.mark.parametrize(
+    ("path", "media_type"),
+    [
+        ("/manifest.webmanifest", "application/manifest+json"),
+        ("/icons/icon-192.png", "image/png"),
+    ],
+)
+async def test_what_installs_the_page_is_asked_for_again(
+    client: httpx.AsyncClient, path: str, media_type: str
+) -> None:
+    response = await client.get(path)
+    assert response.status_code == 200
+    assert response.headers["content-type"] == media_type
+    assert "immutable" not in response.headers["cache-control"]
 
 
 async def test_asset_is_kept_for_ever(client: httpx.AsyncClient) -> None:
@@ -132,6 +164,9 @@ async def test_file_without_a_packed_one_is_sent_plain(client: httpx.AsyncClient
         "/assets/%2e%2e%2fsecret.js",
         "/assets/.hidden.js",
         "/assets/",
+        "/icons/absent.png",
+        "/icons/..%2Fworker.js",
+        "/manifest.json",
     ],
 )
 async def test_nothing_but_assets_is_served(client: httpx.AsyncClient, path: str) -> None:

@@ -17,6 +17,7 @@ from twin.scene.overlays.maps import add_condition_map, add_nine_points
 from twin.scene.overlays.path import PathNodes
 from twin.scene.overlays.regions import add_regions, reach_of
 from twin.scene.overlays.spread import InvalidCovarianceError, SpreadNodes
+from twin.scene.overlays.target import TargetNodes
 from twin.scene.robot_nodes import RobotNodes
 from twin.scene.state import TwinState
 from twin.statics import ActuatorLimits, Loads, SagTables
@@ -80,6 +81,7 @@ class TwinScene:
         add_condition_map(scene, geometry, reach)
         add_nine_points(scene, geometry, sag)
         self.path = PathNodes(scene)
+        self.target = TargetNodes(scene, geometry)
         self.spread = SpreadNodes(scene)
 
     def show(self, state: TwinState) -> None:
@@ -91,6 +93,7 @@ class TwinScene:
         self.car.show(state)
         self.divergence.show(state)
         self.path.show(state.path)
+        self.target.show(state.target)
         self.forces.show(state, self.robot.cable.pull_n if state.measured else None)
         trouble = self.robot.trouble
         try:

@@ -34,6 +34,19 @@ class PlannedPath:
         return float(self.times_s[-1])
 
 
+@dataclass(frozen=True, slots=True)
+class ChosenTarget:
+    """A place that somebody has chosen; the robot goes there only when it is told to.
+
+    Attributes:
+        joints: Joint positions there.
+        path: The way of the plug's tip.
+    """
+
+    joints: JointPosition
+    path: PlannedPath
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TwinState:
     """Plain values, so that the scene needs to know neither drivers nor jobs.
@@ -54,6 +67,8 @@ class TwinState:
         parted: Quantities in which robot and model have parted, as `twin.divergence.Quantity`.
         path: The plan being followed, None while there is none. The same object as long as it
             is the same plan.
+        target: Where somebody wants the robot to go, None if nobody does. The same object as long
+            as it is the same target.
     """
 
     measured: JointPosition | None = None
@@ -67,3 +82,4 @@ class TwinState:
     socket_covariance_mm2: NDArray[np.float64] | None = None
     parted: tuple[str, ...] = ()
     path: PlannedPath | None = None
+    target: ChosenTarget | None = None

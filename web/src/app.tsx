@@ -4,6 +4,7 @@ import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { History } from "@/parts/history";
 import { Notices } from "@/parts/notices";
+import { LanguagePicker } from "@/parts/language-picker";
 import { PlanDialog } from "@/parts/plan";
 import { Progress } from "@/parts/progress";
 import { ReplayDialog } from "@/parts/replay";
@@ -31,6 +32,7 @@ export function App() {
           <Views />
           <History />
           <RobotCard />
+          <LanguagePicker />
         </div>
       </main>
       <StopBar />

@@ -1,14 +1,26 @@
-/** Numbers for people: few digits, a unit, a width that does not jump. */
+/** Numbers for people: few digits, a unit, a width that does not jump, as their country writes. */
+import { computed } from "@preact/signals";
+import { locale } from "@/language/language";
+
+/** A number with so many digits behind the point, or the comma. */
+export function formatNumber(value: number, digits: number): string {
+  return NUMBERS.value(digits).format(value);
+}
 
 /** Energy in Wh below 1 kWh, else in kWh. */
 export function formatEnergy(energy_wh: number): string {
-  if (energy_wh < 1000) return `${energy_wh.toFixed(0)} Wh`;
-  return `${(energy_wh / 1000).toFixed(1)} kWh`;
+  if (energy_wh < 1000) return `${formatNumber(energy_wh, 0)} Wh`;
+  return `${formatNumber(energy_wh / 1000, 1)} kWh`;
+}
+
+/** Money as the reader's country writes it; the currency is ISO 4217. */
+export function formatMoney(amount: number, currency: string): string {
+  return new Intl.NumberFormat(locale.value, { style: "currency", currency }).format(amount);
 }
 
 /** Power in kW. */
 export function formatPower(power_w: number): string {
-  return `${(power_w / 1000).toFixed(1)} kW`;
+  return `${formatNumber(power_w / 1000, 1)} kW`;
 }
 
 /** Seconds as "12 s", "3:07" or "1 h 02" (minutes). */
@@ -23,27 +35,48 @@ export function formatDuration(duration_s: number): string {
 }
 
 export function formatForce(force_n: number): string {
-  return `${force_n.toFixed(0)} N`;
+  return `${formatNumber(force_n, 0)} N`;
 }
 
 export function formatPoint(point: { x_mm: number; y_mm: number; z_mm: number }): string {
-  return [point.x_mm, point.y_mm, point.z_mm].map((value) => value.toFixed(1)).join(" / ") + " mm";
+  const { x_mm, y_mm, z_mm } = point;
+  return [x_mm, y_mm, z_mm].map((value) => formatNumber(value, 1)).join(" / ") + " mm";
 }
 
 /** Bytes as "340 kB" or "1.5 MB". */
 export function formatSize(size_bytes: number): string {
-  if (size_bytes < 1e6) return `${Math.ceil(size_bytes / 1000).toFixed(0)} kB`;
-  return `${(size_bytes / 1e6).toFixed(1)} MB`;
+  if (size_bytes < 1e6) return `${formatNumber(Math.ceil(size_bytes / 1000), 0)} kB`;
+  return `${formatNumber(size_bytes / 1e6, 1)} MB`;
 }
 
 /** Day and time as the reader's own country writes them. */
 export function formatDate(date: string): string {
-  return DATE.format(Date.parse(date));
+  return DATE.value.format(Date.parse(date));
 }
 
-const DATE = new Intl.DateTimeFormat(undefined, {
-  day: "numeric",
-  month: "short",
-  hour: "2-digit",
-  minute: "2-digit",
+/** Making a formatter costs far more than using it; each is kept until the language changes. */
+const NUMBERS = computed(() => {
+  const made = new Map<number, Intl.NumberFormat>();
+  const spoken = locale.value;
+  return (digits: number): Intl.NumberFormat => {
+    let found = made.get(digits);
+    if (found === undefined) {
+      found = new Intl.NumberFormat(spoken, {
+        minimumFractionDigits: digits,
+        maximumFractionDigits: digits,
+      });
+      made.set(digits, found);
+    }
+    return found;
+  };
 });
+
+const DATE = computed(
+  () =>
+    new Intl.DateTimeFormat(locale.value, {
+      day: "numeric",
+      month: "short",
+      hour: "2-digit",
+      minute: "2-digit",
+    }),
+);

@@ -167,7 +167,7 @@ class SimulatedCamera:
                     dark=self.fault is CameraFault.DARK,
                 )
                 image.flags.writeable = False
-            frame = Frame(image, captured_at_s, number)
+            frame = Frame(image, captured_at_s, number, setting.exposure_s)
             if newest is None or newest.sequence < number:
                 self._newest = frame
             return frame

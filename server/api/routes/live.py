@@ -21,6 +21,7 @@ from server.schema.live import (
     JogEndMessage,
     JogMessage,
     JogStepMessage,
+    MoveToMessage,
     ReplyMessage,
     ResyncMessage,
     StopMessage,
@@ -144,6 +145,9 @@ class _Connection:
                 await services.supervisor.emergency_stop()
             case JogMessage():
                 services.jog.hold(message.axis, message.direction, message.speed_mm_s)
+                self._jogging = True
+            case MoveToMessage():
+                services.technician.targets.hold(message.target_id)
                 self._jogging = True
             case JogEndMessage():
                 services.jog.release()

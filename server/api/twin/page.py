@@ -13,7 +13,7 @@ from server.api.twin.client import small_client
 from twin.scene.overlays import OVERLAYS
 
 _HERE = Path(__file__).parent
-_SCRIPTS = ("head.js", "layers.js", "labels.js", "camera.js", "playback.js")
+_SCRIPTS = ("head.js", "layers.js", "labels.js", "camera.js", "pick.js", "playback.js")
 _STYLES = ("head.css", "layers.css")
 
 

@@ -30,6 +30,8 @@ GOOD_MM, USABLE_MM = 0.06, 0.15
 """Root mean square error across the picture of looks that were held back."""
 OUTLIER_WEIGHT = 0.5
 MOST_OUTLIERS = 0.2
+LABEL_RATIOS = (0.995, 1.005)
+"""True size of a label over the entered one, at most."""
 _ANY_RHO_MM = 200.0
 PRIOR_SIGMAS = 4.0
 """An unknown so far from the drawing is rather a mistake than a bad build."""
@@ -73,7 +75,7 @@ def judge(
     """
     unknowns = solution.unknowns
     held_back_mm = _held_back_mm(looks, unknowns.drawn, unknowns.R_base_camera_drawn, known)
-    in_use_mm = _error_of_mm(in_use, unknowns, looks)
+    in_use_mm = mechanism_error_mm(in_use, unknowns.R_base_camera, looks)
     marks: list[tuple[Grade, str]] = []
     if held_back_mm > USABLE_MM:
         marks.append(
@@ -133,19 +135,28 @@ def _held_back_mm(
     return float(np.sqrt(np.mean(squares)))
 
 
-def _error_of_mm(built: PlanarAsBuilt, unknowns: Unknowns, looks: Sequence[LabelLook]) -> float:
+def mechanism_error_mm(
+    built: PlanarAsBuilt, R_base_camera: Array, looks: Sequence[LabelLook]
+) -> float:
     """Error of a mechanism that is not solved for; camera and label suit it best.
 
     The best rigid motion between where the mechanism has the platform and where the looks have it
-    (Kabsch 1976); in depth nothing moves.
+    (Kabsch 1976), and the label as large as suits best; in depth nothing moves.
+
+    Args:
+        built: The mechanism.
+        R_base_camera: How the camera is turned, shape (3, 3).
+        looks: At one label.
     """
     by_mechanism = built.forward_many(np.stack([look.rho_mm for look in looks]))
     seen = np.stack([look.label_mm for look in looks])
-    by_looks = -(seen @ unknowns.R_base_camera.T)[:, :2]
+    by_looks = -(seen @ R_base_camera.T)[:, :2]
     here, there = by_mechanism - by_mechanism.mean(axis=0), by_looks - by_looks.mean(axis=0)
     left, _, right = np.linalg.svd(there.T @ here)
     turn = right.T @ np.diag([1.0, np.linalg.det(right.T @ left.T)]) @ left.T
-    off = here - there @ turn.T
+    turned = there @ turn.T
+    ratio = float(np.clip(np.sum(here * turned) / np.sum(turned**2), *LABEL_RATIOS))
+    off = here - ratio * turned
     return float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
 
 

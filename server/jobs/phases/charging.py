@@ -46,6 +46,7 @@ async def run(job: JobContext) -> None:
     except StationError as error:
         raise StationUnsafeError(str(error)) from error
     energy_before_wh = await _energy_before_wh(job, first)
+    await _begin_cost(job, first.session_energy_wh - energy_before_wh)
     try:
         reason = await _until_done(job, energy_before_wh)
     except CarGoneError:
@@ -61,6 +62,10 @@ async def suspend(job: JobContext) -> None:
         StationUnsafeError: the station does not answer.
     """
     await forbid_power(job.station)
+    if job.cost is not None and job.energy_wh is not None:
+        # The price of the time that passes without power does not count.
+        job.cost.read(job.energy_wh, job.calendar.now())
+        await job.journal.charged(job.energy_wh, **job.cost_so_far)
 
 
 async def _energy_before_wh(job: JobContext, first: StationSnapshot) -> float:
@@ -77,6 +82,14 @@ async def _energy_before_wh(job: JobContext, first: StationSnapshot) -> float:
         "charging_started", "Power is allowed.", energy_before_wh=round(before_wh, 3)
     )
     return before_wh
+
+
+async def _begin_cost(job: JobContext, energy_wh: float) -> None:
+    """Count the cost from what is kept, and what has flowed since while nobody looked."""
+    job.count_cost()
+    if job.cost is not None:
+        job.cost.read(energy_wh, job.calendar.now())
+        await job.journal.charged(energy_wh, **job.cost_so_far)
 
 
 async def _until_done(job: JobContext, energy_before_wh: float) -> str:
@@ -99,9 +112,11 @@ async def _until_done(job: JobContext, energy_before_wh: float) -> str:
             hungry_s = heard_s
         energy_wh = snapshot.session_energy_wh - energy_before_wh
         job.energy_wh = energy_wh
+        if job.cost is not None:
+            job.cost.read(energy_wh, job.calendar.now())
         if heard_s - kept_s > KEEP_PERIOD_S:
             kept_s = heard_s
-            await job.journal.charged(energy_wh)
+            await job.journal.charged(energy_wh, **job.cost_so_far)
         target_wh = job.journal.job.target_energy_wh
         if target_wh is not None and energy_wh >= target_wh:
             return f"The car has got its {target_wh / 1000:.1f} kWh."

@@ -29,8 +29,14 @@ async def run(job: JobContext) -> None:
     await forbid_power(job.station)
     await job.supervisor.load.prove(job.settings.supervision.proof_patience_s)
     await unlock(job.station)
+    charged_wh = round(max(energy_wh, job.energy_wh or 0.0), 1)
+    if job.cost is None and job.journal.job.result.cost is not None:
+        job.count_cost()  # a restart came after the charging
+    if job.cost is not None:
+        job.cost.read(charged_wh, job.calendar.now())
+        await job.journal.charged(charged_wh, **job.cost_so_far)
     await job.journal.measured(
         "released",
         "No current flows, and the plug is unlocked.",
-        energy_wh=round(max(energy_wh, job.energy_wh or 0.0), 1),
+        energy_wh=charged_wh,
     )

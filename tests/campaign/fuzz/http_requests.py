@@ -69,7 +69,14 @@ class Rest:
             except Unsatisfiable:
                 continue  # nothing about this operation can be wrong
             except Exception as error:
-                raise BrokenError(f"{operation.label}: {error}") from error
+                raise BrokenError(f"{operation.label}: {_words(error)}") from error
+
+
+def _words(error: Exception) -> str:
+    """What went wrong, also where a second try went well and Hypothesis calls it flaky."""
+    if isinstance(error, ExceptionGroup):
+        return f"{error}: " + "; ".join(str(each) for each in error.exceptions)
+    return str(error)
 
 
 class RawHttp:

@@ -10,6 +10,7 @@ from pydantic import SecretStr
 from drivers.station.settings import OpenevseSettings
 from server.config.settings import Settings
 from server.config.station import StationSettings
+from server.storage.settings import VERSIONS_KEPT
 from tests.support.api import on_api, problem
 from tests.support.garage import Scene, on_scene
 
@@ -96,3 +97,82 @@ def test_changes_survive_a_restart_but_not_their_own_nonsense(tmp_path: Path) ->
 
     for scenario in (first, second, third):
         on_scene(scenario, folder=tmp_path, parked=False)
+
+
+def test_a_rehearsal_names_the_field_and_shows_the_difference() -> None:
+    async def scenario(_: Scene, client: Client) -> None:
+        etag = (await client.get("config")).headers["etag"]
+        wrong = {"webhooks": {"timeout_s": -1, "max_log": 5}, "logging": {"level": "chatty"}}
+        found = (await client.post("config/check", json=wrong)).json()
+        assert [each["key"] for each in found["troubles"]] == [
+            "webhooks.timeout_s",
+            "logging.level",
+        ]
+        assert found["differences"] == []
+        right = {"webhooks": {"timeout_s": 5, "max_log": 200}}
+        found = (await client.post("config/check", json=right)).json()
+        assert found == {
+            "troubles": [],
+            "differences": [{"key": "webhooks.timeout_s", "before": 10.0, "after": 5.0}],
+        }
+        fixed = (await client.post("config/check", json={"robot": {"port": "x"}})).json()
+        assert "robot" in fixed["troubles"][0]["sentence"]
+        assert (await client.get("config")).headers["etag"] == etag
+
+    on_api(scenario)
+
+
+def test_one_can_go_back_to_every_version_and_to_the_start() -> None:
+    async def scenario(scene: Scene, client: Client) -> None:
+        for timeout_s in (5, 6, 7):
+            answer = await patch(client, {"webhooks": {"timeout_s": timeout_s}})
+            assert answer.status_code == 200
+        versions = (await client.get("config/versions")).json()["versions"]
+        assert [each["changes"].get("webhooks") for each in versions] == [
+            {"timeout_s": 7},
+            {"timeout_s": 6},
+            {"timeout_s": 5},
+            None,
+        ]
+        assert all(each["by"] for each in versions[:-1])
+        back = f"config/versions/{versions[2]['number']}/restore"
+        problem(await client.post(back), 428, "precondition_required")
+        etag = answer.headers["etag"]
+        answer = await client.post(back, headers={"If-Match": etag})
+        assert answer.json()["settings"]["webhooks"]["timeout_s"] == 5
+        assert scene.services.running_settings.current.webhooks.timeout_s == 5
+        problem(await client.post(back, headers={"If-Match": etag}), 412, "precondition_failed")
+        start = await client.post("config/versions/0/restore", headers={"If-Match": "*"})
+        assert start.json()["settings"]["webhooks"]["timeout_s"] == 10
+        missing = await client.post("config/versions/999/restore", headers={"If-Match": "*"})
+        problem(missing, 404, "no_such_version")
+        assert len((await client.get("config/versions")).json()["versions"]) == 6
+
+    on_api(scenario)
+
+
+def test_only_so_many_versions_are_kept() -> None:
+    async def scenario(scene: Scene, client: Client) -> None:
+        for number in range(VERSIONS_KEPT + 3):
+            await scene.services.running_settings.change({"webhooks": {"max_log": number + 1}})
+        versions = (await client.get("config/versions")).json()["versions"]
+        assert len(versions) == VERSIONS_KEPT + 1
+        assert versions[0]["changes"] == {"webhooks": {"max_log": VERSIONS_KEPT + 3}}
+
+    on_api(scenario)
+
+
+def test_every_setting_is_a_field_and_says_whether_it_needs_a_restart() -> None:
+    async def scenario(_: Scene, client: Client) -> None:
+        fields = {
+            each["key"]: each for each in (await client.get("config/fields")).json()["fields"]
+        }
+        assert {key.partition(".")[0] for key in fields} == set(Settings.model_fields)
+        assert fields["logging.level"]["choices"] == ["debug", "info", "warning", "error"]
+        assert fields["webhooks.timeout_s"]["most"] == 60
+        assert fields["charge_point.vehicle_id"]["optional"]
+        assert fields["charge_point.attempts"]["changeable"]
+        assert not fields["webhooks.allowed_networks"]["changeable"]
+        assert not fields["robot.port"]["changeable"]
+
+    on_api(scenario)

@@ -25,6 +25,7 @@ STREAMS = {
     "multipart/x-mixed-replace",
     "application/octet-stream",
     "application/x-ndjson",
+    "application/zip",
 }
 
 
@@ -180,7 +181,7 @@ def test_the_messages_of_the_socket_are_part_of_it(contract: dict[str, Any]) -> 
         schemas[option["$ref"].rsplit("/", 1)[1]]["properties"]["type"]["const"]
         for option in schemas["ClientMessage"]["oneOf"]
     }
-    assert kinds == {"stop", "emergency_stop", "jog", "jog_step", "jog_end", "resync"}
+    assert kinds == {"stop", "emergency_stop", "jog", "jog_step", "move_to", "jog_end", "resync"}
     assert len(kinds) == len(ClientMessage.__origin__.__args__)  # type: ignore[attr-defined]
 
 

@@ -29,6 +29,7 @@ class Overlay:
 
 PATH = Overlay("path", "Planned path", ("/overlays/path",), shown_at_first=True)
 GHOST = Overlay("ghost", "Commanded plug", ("/overlays/ghost",), shown_at_first=True)
+TARGET = Overlay("target", "Chosen place", ("/overlays/target",), shown_at_first=True)
 FORCES = Overlay(
     "forces",
     "Forces",
@@ -51,6 +52,7 @@ SAG = Overlay("sag", "Sag at nine points", ("/overlays/sag",))
 OVERLAYS = (
     PATH,
     GHOST,
+    TARGET,
     FORCES,
     PULL,
     SPREAD,

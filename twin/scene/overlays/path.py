@@ -35,8 +35,13 @@ def length_mm(path: PlannedPath) -> float:
 class PathNodes:
     """A line with the time at its start and at its end."""
 
-    def __init__(self, scene: SceneApi) -> None:
-        name = PATH.nodes[0]
+    def __init__(self, scene: SceneApi, name: str = PATH.nodes[0]) -> None:
+        """Builds the nodes.
+
+        Args:
+            scene: Of the picture.
+            name: Of the node that carries the way.
+        """
         add_pivot(scene, name)
         self.way = add_pivot(scene, f"{name}/way", visible=False)
         self.line: LineSegmentsHandle = scene.add_line_segments(

@@ -2,9 +2,13 @@
 import { signal } from "@preact/signals";
 import type { FunctionComponent } from "preact";
 import { useEffect } from "preact/hooks";
+import { speaking } from "@/language/catalogue";
+import { Brand } from "@/parts/header";
 import { Modal } from "@/parts/modal";
+import { Picture } from "@/parts/picture";
+import { words } from "@/words";
 import { Pairing } from "./pairing";
-import { menuOpen, session, useInvitation, waitingInvitation } from "./session";
+import { menuOpen, session, unanswered, useInvitation, waitingInvitation } from "./session";
 import { say } from "./words";
 
 const Menu = signal<FunctionComponent<{ onClose: () => void }> | null>(null);
@@ -12,13 +16,37 @@ const Menu = signal<FunctionComponent<{ onClose: () => void }> | null>(null);
 /** A page for those who are paired, the way in for all others. */
 export function Door({ page: Page }: { page: FunctionComponent }) {
   const who = session.value;
-  if (who === null) return <p class="door-wait soft">{say.door.opening}</p>;
+  if (!speaking.value) return null;
+  if (who === null) {
+    return unanswered.value ? <Away /> : <p class="door-wait soft">{say.door.opening}</p>;
+  }
   if (!who.paired) return <Pairing />;
   return (
     <>
       <Page />
       {menuOpen.value && <LoadedMenu />}
       {waitingInvitation.value !== null && <Replace secret={waitingInvitation.value} />}
+    </>
+  );
+}
+
+/** The page was opened without its robot. It goes on by itself as soon as the robot answers. */
+function Away() {
+  const { headline, detail } = words.state.unreachable;
+  return (
+    <>
+      <header class="header">
+        <Brand />
+      </header>
+      <main class="door away">
+        <section class="hero" data-tone="problem">
+          <Picture arm="parked" mark="asleep" tone="problem" />
+          <div class="hero-text" role="status">
+            <h1>{headline}</h1>
+            <p>{detail}</p>
+          </div>
+        </section>
+      </main>
     </>
   );
 }

@@ -6,8 +6,6 @@ import { SureButton, useList } from "./menu";
 import type { Run } from "./menu";
 import { say } from "./words";
 
-const SCOPES = Object.keys(say.scopes) as KeyScope[];
-
 /** Keys for programs. */
 export function Keys({ run }: { run: Run }) {
   const [keys, reload] = useList(run, listKeys);
@@ -74,7 +72,7 @@ export function Keys({ run }: { run: Run }) {
           />
         </label>
         <fieldset>
-          {SCOPES.map((scope) => (
+          {(Object.keys(say.scopes) as KeyScope[]).map((scope) => (
             <label key={scope} class="check">
               <input
                 type="checkbox"

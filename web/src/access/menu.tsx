@@ -2,6 +2,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { Signal } from "@preact/signals";
 import { Refusal } from "@/api/client";
+import { told } from "@/language/problems";
 import { Modal } from "@/parts/modal";
 import { Keys } from "./keys";
 import { Own } from "./own";
@@ -23,7 +24,8 @@ export function Menu({ onClose }: { onClose: () => void }) {
     trouble.value = null;
     void work().catch((error: unknown) => {
       if (!(error instanceof Refusal)) throw error;
-      trouble.value = `${error.trouble.title}. ${error.trouble.remedy}`;
+      const { title, remedy } = told(error.trouble);
+      trouble.value = `${title}. ${remedy}`;
     });
   };
   return (

@@ -1,7 +1,9 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { stopByRest } from "@/api/client";
+import { told } from "@/language/problems";
 import { Brand } from "@/parts/header";
+import { LanguagePicker } from "@/parts/language-picker";
 import { logIn, ownerInvitation, takesPasskeys } from "./calls";
 import type { Invitation } from "./calls";
 import { attempt, doorTrouble, enter, may, secretIn, session, useInvitation } from "./session";
@@ -20,16 +22,23 @@ export function Pairing() {
       <main class="door">
         <section class="card door-card">
           {screen ? <OwnScreen /> : <Ways />}
-          {doorTrouble.value !== null && (
-            <div class="door-trouble" role="alert">
-              <strong>{doorTrouble.value.title}</strong>
-              <p>{doorTrouble.value.remedy}</p>
-            </div>
-          )}
+          <DoorTrouble />
         </section>
         {may("stop") && <LocalStop />}
+        <LanguagePicker />
       </main>
     </>
+  );
+}
+
+function DoorTrouble() {
+  if (doorTrouble.value === null) return null;
+  const { title, remedy } = told(doorTrouble.value);
+  return (
+    <div class="door-trouble" role="alert">
+      <strong>{title}</strong>
+      <p>{remedy}</p>
+    </div>
   );
 }
 

@@ -3,17 +3,20 @@ import { effect, signal } from "@preact/signals";
 import type { Signal } from "@preact/signals";
 import { Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
+import { speakPreferred } from "@/language/start";
 import { connect, store } from "@/live/page";
 import { getSession, pairDevice } from "./calls";
 import type { Right, Session } from "./calls";
 
 const FRAGMENT = /^#pair=([\w-]{10,128})$/;
-const AGAIN_MS = 3000;
+const AGAIN_MS = 1500;
 
 /** Null until the server has said. */
 export const session: Signal<Session | null> = signal(null);
 /** The secret of an invitation that waits for a yes, because this browser is paired already. */
 export const waitingInvitation: Signal<string | null> = signal(null);
+/** The robot has not answered since this page was opened. */
+export const unanswered = signal(false);
 /** Why the last attempt to get in failed. */
 export const doorTrouble: Signal<Trouble | null> = signal(null);
 
@@ -31,14 +34,14 @@ export function secretIn(text: string): string | null {
   return FRAGMENT.exec(at < 0 ? text : text.slice(at))?.[1] ?? null;
 }
 
-/** Asks who this browser is, uses the invitation in the address, and watches for the end. */
+/** Speaks, asks who this browser is, uses the invitation in the address, and watches for the end. */
 export async function begin(): Promise<void> {
   addEventListener("hashchange", () => void openInvitation());
   // A lost connection may mean that this device was removed.
   effect(() => {
     if (store.link.value === "lost") void check();
   });
-  await check();
+  await Promise.all([speakPreferred(), check()]);
   await openInvitation();
 }
 
@@ -79,8 +82,10 @@ async function openInvitation(): Promise<void> {
 async function check(): Promise<void> {
   try {
     enter(await getSession());
+    unanswered.value = false;
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
+    unanswered.value = session.value === null;
     // The server is away; until it is back nobody can say who this is.
     if (session.value === null || store.link.value === "lost") {
       setTimeout(() => void check(), AGAIN_MS);

@@ -1,4 +1,5 @@
 /** Calls to the REST API; every failure becomes a Refusal with words for a person. */
+import { firstWords } from "@/language/catalogue";
 import { words } from "@/words";
 import { randomKey } from "./key";
 import type {
@@ -40,10 +41,12 @@ export class Refusal extends Error {
 }
 
 interface Call {
-  readonly method?: "GET" | "POST" | "PUT" | "DELETE";
+  readonly method?: "GET" | "POST" | "PUT" | "PATCH" | "DELETE";
   readonly body?: unknown;
   readonly headers?: Record<string, string>;
   readonly patienceMs?: number;
+  /** Hears the version of the answer, for a change that must not overwrite another. */
+  readonly onVersion?: (etag: string) => void;
 }
 
 /**
@@ -52,7 +55,7 @@ interface Call {
  * @throws Refusal when the server says no, or cannot be asked.
  */
 export async function call<Answer>(path: string, options: Call = {}): Promise<Answer> {
-  const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS } = options;
+  const { method = "GET", body, headers = {}, patienceMs = PATIENCE_MS, onVersion } = options;
   const request: RequestInit = { method, headers, signal: AbortSignal.timeout(patienceMs) };
   if (body !== undefined) {
     request.body = JSON.stringify(body);
@@ -64,9 +67,14 @@ export async function call<Answer>(path: string, options: Call = {}): Promise<An
     response = await fetch(ROOT + path, request);
     text = await response.text();
   } catch {
+    await firstWords;
     throw new Refusal(words.trouble.unreachable, false);
   }
-  if (!response.ok) throw new Refusal(troubleIn(text), true);
+  if (!response.ok) {
+    await firstWords;
+    throw new Refusal(troubleIn(text), true);
+  }
+  onVersion?.(response.headers.get("ETag") ?? "");
   return (text === "" ? undefined : JSON.parse(text)) as Answer;
 }
 

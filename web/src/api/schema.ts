@@ -386,6 +386,243 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List calibrations
+         * @description All versions that were ever made, newest first.
+         */
+        readonly get: operations["listCalibrations"];
+        readonly put?: never;
+        /**
+         * Keep numbers from elsewhere
+         * @description Keep numbers that were found elsewhere, such as in a camera file, as a new version.
+         *
+         *     It is not in force, and nobody has measured what it misses.
+         */
+        readonly post: operations["keepCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/{calibration_id}": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read a calibration
+         * @description One version with what it rests on.
+         */
+        readonly get: operations["getCalibration"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/{calibration_id}/activation": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Put a calibration in force
+         * @description Put a version in force. Nothing moves by it.
+         *
+         *     One that is worse than the one in force is refused with how much worse it is, unless that is
+         *     accepted. Refused while a job, or somebody else, uses the robot, and while the plug is in a
+         *     socket.
+         */
+        readonly post: operations["activateCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/checks": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List nine-point checks
+         * @description How exactly the robot went where it was sent, newest first.
+         */
+        readonly get: operations["listAccuracyChecks"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/now": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what is in force
+         * @description The version of each kind that counts now, and the routine under way or the last one.
+         */
+        readonly get: operations["getCalibrationNow"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/roll-back": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go back to the one before
+         * @description Put in force what was in force before: an older version, or what the configuration says.
+         *
+         *     Refused while a job, or somebody else, uses the robot, and while the plug is in a socket.
+         */
+        readonly post: operations["rollBackCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Begin a routine
+         * @description Measure the robot, from 25 looks at a label that stands still, or teach a socket.
+         *
+         *     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
+         *     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
+         */
+        readonly post: operations["beginCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/cancel": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * End the routine
+         * @description The robot comes to rest, and nothing is kept.
+         */
+        readonly post: operations["cancelCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/resume": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go on with the routine
+         * @description Go on where the routine was interrupted.
+         */
+        readonly post: operations["resumeCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/camera/inspection": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Look closely at a picture
+         * @description The newest picture with its label, pose and uncertainty; waits for one that is not known.
+         *
+         *     The camera is looked at for as long as somebody asks.
+         */
+        readonly get: operations["inspectCamera"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/camera/inspection/{sequence}.jpg": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read the picture that was looked at
+         * @description The picture of an inspection; only the newest few are kept.
+         */
+        readonly get: operations["getInspectedPicture"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/camera/snapshot.jpg": {
         readonly parameters: {
             readonly query?: never;
@@ -537,6 +774,106 @@ export interface paths {
          * @description Change settings that need no restart; they are kept, and win over the configuration file.
          */
         readonly patch: operations["patchConfig"];
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/check": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Rehearse a change of settings
+         * @description What a change would do, or what is wrong with which field. Nothing is changed.
+         */
+        readonly post: operations["checkConfig"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/fields": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what can be set
+         * @description Every setting: its kind, what it is for, its limits, and whether it needs a restart.
+         */
+        readonly get: operations["getConfigFields"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/versions": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read earlier settings
+         * @description Who changed what over the API, the newest first; the last one is the start.
+         */
+        readonly get: operations["listConfigVersions"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/config/versions/{number}/restore": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Go back to earlier settings
+         * @description Let everything hold again that held after that change; this is a new version itself.
+         */
+        readonly post: operations["restoreConfig"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/diagnostics.zip": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Download the diagnostics
+         * @description One file with state, settings, versions, log, audit trail, jobs and the link; no secrets.
+         */
+        readonly get: operations["getDiagnostics"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
         readonly trace?: never;
     };
     readonly "/api/v1/events": {
@@ -916,6 +1253,28 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/frames": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Follow the link to the board
+         * @description What went to and from the motion board since the last look; waits a second for news.
+         *
+         *     Nothing is kept before somebody asks, nor when nobody has asked for some seconds.
+         */
+        readonly get: operations["readFrames"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot/home": {
         readonly parameters: {
             readonly query?: never;
@@ -1039,6 +1398,30 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/target": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Plan a way to a place
+         * @description Plan and check the straight way of the plug's tip to a place. Nothing moves.
+         */
+        readonly post: operations["chooseTarget"];
+        /**
+         * Forget the place
+         * @description Nobody wants to go there any more.
+         */
+        readonly delete: operations["forgetTarget"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/simulation/car": {
         readonly parameters: {
             readonly query?: never;
@@ -1126,6 +1509,26 @@ export interface paths {
          * @description Its jobs stay in the history.
          */
         readonly delete: operations["deleteVehicle"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/versions": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what runs here
+         * @description Software, libraries, firmware, protocol.
+         */
+        readonly get: operations["getVersions"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
         readonly patch?: never;
@@ -1298,6 +1701,112 @@ export interface components {
             readonly screen: boolean;
         };
         /**
+         * AccuracyCheck
+         * @description A nine-point check. Places without a label in the picture are left out.
+         */
+        readonly AccuracyCheck: {
+            /**
+             * Accuracy Mm
+             * @description The largest AP
+             */
+            readonly accuracy_mm: number;
+            /**
+             * Approaches
+             * @description Of each place from each of two directions
+             */
+            readonly approaches: number;
+            /**
+             * Calibration Id
+             * @description The calibration of the robot that was in force; null: as drawn
+             */
+            readonly calibration_id: string | null;
+            /**
+             * Direction Variation Mm
+             * @description The largest vAP
+             */
+            readonly direction_variation_mm: number;
+            /**
+             * Duration S
+             * @description Robot time
+             */
+            readonly duration_s: number;
+            /** Id */
+            readonly id: string;
+            /**
+             * Left Out
+             * @description Places from which the label was not to be seen
+             */
+            readonly left_out: number;
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /** Places */
+            readonly places: readonly components["schemas"]["CheckedPlace"][];
+            /**
+             * Repeatability Mm
+             * @description The largest RP
+             */
+            readonly repeatability_mm: number;
+        };
+        /**
+         * AccuracyCheckPage
+         * @description Checks, newest first.
+         */
+        readonly AccuracyCheckPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["AccuracyCheck"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
+         * Activation
+         * @description Put a version in force.
+         */
+        readonly Activation: {
+            /**
+             * Accept Worse
+             * @description Also if it is worse than the one in force, or was not measured
+             * @default false
+             */
+            readonly accept_worse?: boolean;
+        };
+        /**
+         * ActuatorForce
+         * @description What one actuator carries at the worst place of the way.
+         */
+        readonly ActuatorForce: {
+            /**
+             * At S
+             * @description After the start
+             */
+            readonly at_s: number;
+            /**
+             * Force N
+             * @description Positive along growing rho
+             */
+            readonly force_n: number;
+            /**
+             * Joint
+             * @enum {string}
+             */
+            readonly joint: "rho1" | "rho2" | "rho3";
+            /** Limit N */
+            readonly limit_n: number;
+            /**
+             * Share
+             * @description Of the limit, 1 on it
+             */
+            readonly share: number;
+        };
+        /**
          * Attempt
          * @description One attempt to deliver.
          */
@@ -1369,6 +1878,25 @@ export interface components {
             readonly times: number;
         };
         /**
+         * BeltReading
+         * @description How far a carriage really went, measured with a rule.
+         */
+        readonly BeltReading: {
+            /**
+             * Commanded Mm
+             * @description By the board's counting, both ends approached from the same side
+             */
+            readonly commanded_mm: number;
+            /** Measured Mm */
+            readonly measured_mm: number;
+            /**
+             * Reading Sigma Mm
+             * @description How exactly each end of the rule was read
+             * @default 0.1
+             */
+            readonly reading_sigma_mm?: number;
+        };
+        /**
          * Brake
          * @description Stop now.
          */
@@ -1378,6 +1906,296 @@ export interface components {
              * @enum {string}
              */
             readonly type: "brake";
+        };
+        /**
+         * Calibration
+         * @description One version. It never changes.
+         */
+        readonly Calibration: {
+            /**
+             * Error
+             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             */
+            readonly error: number | null;
+            /**
+             * Error In Use
+             * @description What the one then in force missed on the same data
+             */
+            readonly error_in_use: number | null;
+            readonly grade: components["schemas"]["Grade"];
+            /** Id */
+            readonly id: string;
+            /** In Force */
+            readonly in_force: boolean;
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks: readonly string[];
+            /**
+             * Source
+             * @description Where its numbers come from, in words
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            /**
+             * Version
+             * @description Counted from 1, of each kind and vehicle
+             */
+            readonly version: number;
+        };
+        /**
+         * CalibrationDetail
+         * @description One version with what it rests on.
+         */
+        readonly CalibrationDetail: {
+            /**
+             * Error
+             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             */
+            readonly error: number | null;
+            /**
+             * Error In Use
+             * @description What the one then in force missed on the same data
+             */
+            readonly error_in_use: number | null;
+            readonly evidence: components["schemas"]["RobotEvidence"] | null;
+            readonly grade: components["schemas"]["Grade"];
+            /** Id */
+            readonly id: string;
+            /** In Force */
+            readonly in_force: boolean;
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Made At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly made_at: string;
+            /** Made By */
+            readonly made_by: string;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks: readonly string[];
+            /**
+             * Source
+             * @description Where its numbers come from, in words
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            /**
+             * Version
+             * @description Counted from 1, of each kind and vehicle
+             */
+            readonly version: number;
+        };
+        /**
+         * CalibrationEntry
+         * @description Numbers from elsewhere, such as a file of `plugpilot calibrate camera`.
+         */
+        readonly CalibrationEntry: {
+            /**
+             * Source
+             * @example camera-0003.toml
+             */
+            readonly source: string;
+            /** Values */
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+        };
+        /**
+         * CalibrationKind
+         * @description What is calibrated. Of each kind, and of sockets for each vehicle, one version counts.
+         * @enum {string}
+         */
+        readonly CalibrationKind: "camera" | "robot" | "socket";
+        /**
+         * CalibrationNow
+         * @description What counts, and what is being measured.
+         */
+        readonly CalibrationNow: {
+            /**
+             * @default {
+             *       "sockets": []
+             *     }
+             */
+            readonly in_force?: components["schemas"]["CalibrationsInForce"];
+            readonly routine?: components["schemas"]["Routine"] | null;
+        };
+        /**
+         * CalibrationPage
+         * @description Calibrations, newest first.
+         */
+        readonly CalibrationPage: {
+            /** Items */
+            readonly items: readonly components["schemas"]["Calibration"][];
+            /**
+             * Next Cursor
+             * @description Pass as ?cursor= for the next page; null: end
+             */
+            readonly next_cursor?: string | null;
+        };
+        /**
+         * CalibrationsInForce
+         * @description What counts now; null: what the configuration says.
+         */
+        readonly CalibrationsInForce: {
+            readonly camera?: components["schemas"]["Calibration"] | null;
+            readonly robot?: components["schemas"]["Calibration"] | null;
+            /**
+             * Sockets
+             * @description Of taught vehicles
+             */
+            readonly sockets?: readonly components["schemas"]["Calibration"][];
+        };
+        /**
+         * CameraInspection
+         * @description One picture of the camera, looked at closely.
+         */
+        readonly CameraInspection: {
+            /**
+             * Age S
+             * @description From the middle of the exposure to the end of the look
+             */
+            readonly age_s: number;
+            /**
+             * Bright Share
+             * @description Pixels that are clipped
+             */
+            readonly bright_share: number;
+            /**
+             * Brightness
+             * @description Mean grey value
+             */
+            readonly brightness: number;
+            /**
+             * Dark Share
+             * @description Pixels without any light
+             */
+            readonly dark_share: number;
+            /**
+             * Exposure Ms
+             * @description Null when the camera does not tell
+             */
+            readonly exposure_ms: number | null;
+            /**
+             * Frames Per S
+             * @description Of the sensor; null after the first picture
+             */
+            readonly frames_per_s: number | null;
+            /** Height Px */
+            readonly height_px: number;
+            readonly label: components["schemas"]["SeenLabel"] | null;
+            /**
+             * Sequence
+             * @description Grows; names the picture
+             */
+            readonly sequence: number;
+            /**
+             * Taken At
+             * Format: date-time
+             * @description Middle of the exposure
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly taken_at: string;
+            /** @description Why there is no label, or no pose that deserves trust */
+            readonly trouble: components["schemas"]["Problem"] | null;
+            /**
+             * Width Px
+             * @description Of the camera; the picture itself may be sent smaller
+             */
+            readonly width_px: number;
+        };
+        /**
+         * CameraModel
+         * @description Intrinsics of one camera at one resolution.
+         *
+         *     A point (x, y, 1) in the camera frame (x right, y down, z forward) appears at
+         *     u = fx x_d + cx, v = fy y_d + cy with r^2 = x^2 + y^2 and
+         *     x_d = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2),
+         *     y_d = y (1 + k1 r^2 + k2 r^4 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y.
+         *     Pixel centres are at integer coordinates: (0, 0) is the centre of the top left pixel.
+         */
+        readonly CameraModel: {
+            /**
+             * Cx
+             * @description [px]
+             */
+            readonly cx: number;
+            /**
+             * Cy
+             * @description [px]
+             */
+            readonly cy: number;
+            /**
+             * Fx
+             * @description [px]
+             */
+            readonly fx: number;
+            /**
+             * Fy
+             * @description [px]
+             */
+            readonly fy: number;
+            /**
+             * Height
+             * @description [px]
+             */
+            readonly height: number;
+            /**
+             * K1
+             * @default 0
+             */
+            readonly k1?: number;
+            /**
+             * K2
+             * @default 0
+             */
+            readonly k2?: number;
+            /**
+             * K3
+             * @default 0
+             */
+            readonly k3?: number;
+            /**
+             * P1
+             * @default 0
+             */
+            readonly p1?: number;
+            /**
+             * P2
+             * @default 0
+             */
+            readonly p2?: number;
+            /**
+             * Width
+             * @description [px]
+             */
+            readonly width: number;
+        };
+        /**
+         * CameraValues
+         * @description The camera's own numbers.
+         */
+        readonly CameraValues: {
+            readonly camera: components["schemas"]["CameraModel"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "camera";
         };
         /**
          * ChargePoint
@@ -1443,7 +2261,65 @@ export interface components {
              */
             readonly updated_at: string | null;
         };
-        readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
+        /**
+         * CheckedPlace
+         * @description One place of the check, in the terms of ISO 9283.
+         */
+        readonly CheckedPlace: {
+            /**
+             * Accuracy Mm
+             * @description AP: how far the mean of all approaches is off
+             */
+            readonly accuracy_mm: number;
+            /**
+             * Attained Mm
+             * @description Where it came to; first all from below, then as many from above
+             */
+            readonly attained_mm: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Direction Variation Mm
+             * @description vAP: between the means of the two directions, which is mostly play
+             */
+            readonly direction_variation_mm: number;
+            /**
+             * Repeatability Mm
+             * @description RP: mean distance from it plus 3 sigma
+             */
+            readonly repeatability_mm: number;
+            /**
+             * X Mm
+             * @description Where the platform was sent
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
+        /**
+         * CheckRoutineRequest
+         * @description Check how exactly the robot goes where it is sent, in the terms of ISO 9283.
+         */
+        readonly CheckRoutineRequest: {
+            /**
+             * Approaches
+             * @description Of each of nine places, from each of two directions
+             * @default 3
+             */
+            readonly approaches?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "check";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        readonly ClientMessage: components["schemas"]["StopMessage"] | components["schemas"]["EmergencyStopMessage"] | components["schemas"]["JogMessage"] | components["schemas"]["JogStepMessage"] | components["schemas"]["MoveToMessage"] | components["schemas"]["JogEndMessage"] | components["schemas"]["ResyncMessage"];
         /**
          * CommandedMotion
          * @description What the board was told.
@@ -1487,6 +2363,117 @@ export interface components {
                     readonly [key: string]: components["schemas"]["JsonValue"];
                 };
             };
+        };
+        /**
+         * ConfigurationCheck
+         * @description What a change would do. Nothing was changed.
+         */
+        readonly ConfigurationCheck: {
+            /** Differences */
+            readonly differences: readonly components["schemas"]["ConfigurationDifference"][];
+            /** Troubles */
+            readonly troubles: readonly components["schemas"]["ConfigurationTrouble"][];
+        };
+        /**
+         * ConfigurationDifference
+         * @description One setting that would be another; secrets are hidden.
+         */
+        readonly ConfigurationDifference: {
+            readonly after: components["schemas"]["JsonValue"];
+            readonly before: components["schemas"]["JsonValue"];
+            /** Key */
+            readonly key: string;
+        };
+        /**
+         * ConfigurationField
+         * @description One setting as a field of a form.
+         */
+        readonly ConfigurationField: {
+            /**
+             * Changeable
+             * @description At once and without a restart; else in the configuration file, and PlugPilot must be started again
+             */
+            readonly changeable: boolean;
+            /** Choices */
+            readonly choices: readonly string[];
+            /**
+             * Key
+             * @description Section and name, dotted
+             * @example webhooks.timeout_s
+             */
+            readonly key: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "number" | "integer" | "boolean" | "text" | "choice" | "other";
+            /** Least */
+            readonly least: number | null;
+            /** Most */
+            readonly most: number | null;
+            /**
+             * Optional
+             * @description It may be left empty
+             */
+            readonly optional: boolean;
+            /**
+             * Words
+             * @description What it is for
+             */
+            readonly words: string;
+        };
+        /**
+         * ConfigurationFields
+         * @description All settings, section by section.
+         */
+        readonly ConfigurationFields: {
+            /** Fields */
+            readonly fields: readonly components["schemas"]["ConfigurationField"][];
+        };
+        /**
+         * ConfigurationHistory
+         * @description Versions to which one can go back, the newest first.
+         */
+        readonly ConfigurationHistory: {
+            /** Versions */
+            readonly versions: readonly components["schemas"]["ConfigurationVersion"][];
+        };
+        /**
+         * ConfigurationTrouble
+         * @description What is wrong, and where.
+         */
+        readonly ConfigurationTrouble: {
+            /**
+             * Key
+             * @description Of the field; empty if it is about no one field
+             */
+            readonly key: string;
+            /** Sentence */
+            readonly sentence: string;
+        };
+        /**
+         * ConfigurationVersion
+         * @description What was changed over the API since the start, after one change.
+         */
+        readonly ConfigurationVersion: {
+            /** At */
+            readonly at: string | null;
+            /**
+             * By
+             * @description Who changed something
+             */
+            readonly by: string;
+            /** Changes */
+            readonly changes: {
+                readonly [key: string]: {
+                    readonly [key: string]: components["schemas"]["JsonValue"];
+                };
+            };
+            /**
+             * Number
+             * @description 0 is what PlugPilot was started with
+             */
+            readonly number: number;
         };
         /**
          * ControlHolder
@@ -1819,6 +2806,95 @@ export interface components {
             readonly fault: components["schemas"]["RobotFault"];
         };
         /**
+         * FittedPose
+         * @description The pose of the label, as the camera sees it, and how good it is.
+         */
+        readonly FittedPose: {
+            /**
+             * Axes Px
+             * @description From the centre: the label's right, its bottom, and out of the car; half a label long
+             */
+            readonly axes_px: readonly [
+                readonly [
+                    number,
+                    number
+                ],
+                readonly [
+                    number,
+                    number
+                ],
+                readonly [
+                    number,
+                    number
+                ]
+            ];
+            /** @description Uncertainty of the label's centre in the picture */
+            readonly ellipse: components["schemas"]["PixelEllipse"];
+            /**
+             * Inlier Share
+             * @description Measured edges that agree with the model
+             */
+            readonly inlier_share: number;
+            /**
+             * Measurements
+             * @description Edges measured; 4 for corners
+             */
+            readonly measurements: number;
+            /**
+             * Position Mm
+             * @description Label centre in the camera frame: right, down, ahead
+             */
+            readonly position_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Position Sigma Mm
+             * @description Standard deviations of the position
+             */
+            readonly position_sigma_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Residual Px
+             * @description Root mean square distance of edges and model
+             */
+            readonly residual_px: number;
+            /**
+             * Source
+             * @description All module edges; or, too coarse to move by, the four corners
+             * @enum {string}
+             */
+            readonly source: "edges" | "corners";
+            /**
+             * Turn Deg
+             * @description Rotation vector of T_camera_label
+             */
+            readonly turn_deg: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Turn Sigma Deg
+             * @description Standard deviations about the camera's axes
+             */
+            readonly turn_sigma_deg: readonly [
+                number,
+                number,
+                number
+            ];
+        };
+        /**
+         * Grade
+         * @description What to do with a calibration; from best to worst.
+         * @enum {string}
+         */
+        readonly Grade: "good" | "usable" | "bad";
+        /**
          * Guidance
          * @description What the driver of an arriving car is told.
          */
@@ -1844,6 +2920,12 @@ export interface components {
              * @description What the plug can follow
              */
             readonly max_skew_deg: number;
+            /**
+             * Reason
+             * @description What is said, for pages in another language
+             * @enum {string}
+             */
+            readonly reason: "disabled" | "robot_offline" | "robot_busy" | "robot_not_homed" | "robot_not_parked" | "plug_held" | "camera_down" | "nothing" | "too_far" | "too_dirty" | "too_dark" | "too_bright" | "other_label" | "twice" | "mirrored" | "no_vehicle" | "hidden" | "left_at_left" | "left_at_right" | "left_at_top" | "left_at_bottom" | "rolls" | "too_fast" | "askew" | "stands" | "too_low" | "too_high" | "stop" | "good" | "good_flawed" | "thin" | "skewed" | "skewed_left" | "skewed_right";
             /**
              * Remedy
              * @description What to do about a problem; empty without one
@@ -2351,6 +3433,21 @@ export interface components {
          */
         readonly JobResult: {
             /**
+             * Cost
+             * @description Of that energy, in the currency; null without a tariff
+             */
+            readonly cost?: number | null;
+            /**
+             * Cost At
+             * @description Up to when the cost is counted
+             */
+            readonly cost_at?: string | null;
+            /**
+             * Currency
+             * @description ISO 4217, of the cost
+             */
+            readonly currency?: string | null;
+            /**
              * Energy Wh
              * @description Energy charged
              */
@@ -2587,10 +3684,31 @@ export interface components {
             readonly type: "leave";
         };
         /**
+         * LibraryVersion
+         * @description One library that this software is built on.
+         */
+        readonly LibraryVersion: {
+            /** Name */
+            readonly name: string;
+            /** Version */
+            readonly version: string;
+        };
+        /**
          * Live
          * @description Every live section.
          */
         readonly Live: {
+            /**
+             * @default {
+             *       "in_force": {
+             *         "camera": null,
+             *         "robot": null,
+             *         "sockets": []
+             *       },
+             *       "routine": null
+             *     }
+             */
+            readonly calibration?: components["schemas"]["CalibrationNow"];
             /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
@@ -2617,6 +3735,8 @@ export interface components {
          */
         readonly LiveChanges: {
             /** @default null */
+            readonly calibration?: components["schemas"]["CalibrationNow"] | null;
+            /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
             readonly job?: components["schemas"]["Job"] | null;
@@ -2632,6 +3752,47 @@ export interface components {
             readonly twin?: components["schemas"]["TwinReport"] | null;
         };
         /**
+         * LookRecord
+         * @description One look at the label, and how it fits to the calibration.
+         */
+        readonly LookRecord: {
+            /**
+             * Covariance Mm2
+             * @description Of label_mm, row by row
+             */
+            readonly covariance_mm2: readonly number[];
+            /**
+             * Label Mm
+             * @description In the camera frame
+             */
+            readonly label_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Residual Mm
+             * @description Seen less predicted, camera frame
+             */
+            readonly residual_mm: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Rho1 Mm
+             * @description As the board counts
+             */
+            readonly rho1_mm: number;
+            /** Rho2 Mm */
+            readonly rho2_mm: number;
+            /**
+             * Weight
+             * @description 1; less for a look that does not fit
+             */
+            readonly weight: number;
+        };
+        /**
          * MeasuredMotion
          * @description What the board measured.
          */
@@ -2644,6 +3805,51 @@ export interface components {
             readonly joints: components["schemas"]["Joints"];
             /** @description Null while the robot is not homed */
             readonly tip: components["schemas"]["Tip"] | null;
+        };
+        /**
+         * MoveTarget
+         * @description The way there, checked along its whole length. Nothing has moved.
+         *
+         *     To go there send ``move_to`` with its id on the WebSocket for as long as a button is held. It
+         *     is valid until the robot moves otherwise, or another target is chosen.
+         */
+        readonly MoveTarget: {
+            /** Distance Mm */
+            readonly distance_mm: number;
+            /** Duration S */
+            readonly duration_s: number;
+            /** Forces */
+            readonly forces: readonly components["schemas"]["ActuatorForce"][];
+            /** Id */
+            readonly id: string;
+            /** @description Of the robot there */
+            readonly joints: components["schemas"]["Joints"];
+            readonly tip: components["schemas"]["Tip"];
+            /**
+             * Way
+             * @description Of the plug's tip, evenly in time
+             */
+            readonly way: readonly components["schemas"]["Tip"][];
+        };
+        /**
+         * MoveToMessage
+         * @description Hold to follow the way to a target: send it every 100 ms while the button is held.
+         *
+         *     250 ms without one, ``jog_end``, or a closed connection stops the motion.
+         */
+        readonly MoveToMessage: {
+            /**
+             * Id
+             * @default null
+             */
+            readonly id?: number | null;
+            /** Target Id */
+            readonly target_id: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "move_to";
         };
         /**
          * Need
@@ -2891,6 +4097,87 @@ export interface components {
             readonly type: "ping";
         };
         /**
+         * PixelEllipse
+         * @description One standard deviation of a place in the picture.
+         */
+        readonly PixelEllipse: {
+            /**
+             * Angle Rad
+             * @description From the picture's x axis to the long axis, towards y
+             */
+            readonly angle_rad: number;
+            /**
+             * Major Px
+             * @description Long half axis; times 2.4477 it holds 95 %
+             */
+            readonly major_px: number;
+            /**
+             * Minor Px
+             * @description Short half axis
+             */
+            readonly minor_px: number;
+        };
+        /**
+         * PlanarAsBuilt
+         * @description Ten numbers of one built robot; `as_drawn` gives those of the drawing.
+         */
+        readonly PlanarAsBuilt: {
+            /**
+             * Left Foot X Mm
+             * @description O1, left foot + L3/2 at rho1 = 0, along x
+             */
+            readonly left_foot_x_mm: number;
+            /**
+             * Left Foot Y Mm
+             * @description O1, along y
+             */
+            readonly left_foot_y_mm: number;
+            /**
+             * Left Leg Mm
+             * @description L1, length of AB
+             */
+            readonly left_leg_mm: number;
+            /**
+             * Left Rail Rad
+             * @description a1, left rail against the x axis
+             * @default 0
+             */
+            readonly left_rail_rad?: number;
+            /**
+             * Left Scale
+             * @description k1, true travel over the board's rho1
+             * @default 1
+             */
+            readonly left_scale?: number;
+            /**
+             * Right Foot X Mm
+             * @description O2, right foot - L3/2 at rho2 = 0, along x
+             */
+            readonly right_foot_x_mm: number;
+            /**
+             * Right Foot Y Mm
+             * @description O2, along y
+             */
+            readonly right_foot_y_mm: number;
+            /**
+             * Right Leg Mm
+             * @description L2, length of CE
+             */
+            readonly right_leg_mm: number;
+            /**
+             * Right Rail Rad
+             * @description a2, right rail against the x axis
+             * @default 0
+             */
+            readonly right_rail_rad?: number;
+            /**
+             * Right Scale
+             * @description k2, true travel over the board's rho2
+             * @default 1
+             */
+            readonly right_scale?: number;
+        };
+        /**
          * Playback
          * @description How a recording plays back in 3D: GET /twin/?playbackPath=...playback.viser.
          */
@@ -3019,6 +4306,71 @@ export interface components {
             readonly type: string;
         };
         /**
+         * ProtocolFrame
+         * @description One message between host and board.
+         */
+        readonly ProtocolFrame: {
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Direction
+             * @enum {string}
+             */
+            readonly direction: "to_board" | "from_board";
+            /**
+             * Error
+             * @description It tells of something that went wrong
+             */
+            readonly error: boolean;
+            /**
+             * Kind
+             * @example Telemetry
+             */
+            readonly kind: string;
+            /**
+             * Number
+             * @description Grows by one for each, for as long as somebody looks
+             */
+            readonly number: number;
+            /**
+             * Size Bytes
+             * @description On the wire; null where there is none
+             */
+            readonly size_bytes: number | null;
+            /**
+             * Words
+             * @description Its contents
+             */
+            readonly words: string;
+        };
+        /**
+         * ProtocolFrames
+         * @description What has passed since the last look, oldest first.
+         */
+        readonly ProtocolFrames: {
+            /**
+             * Available
+             * @description False with a driver that cannot tell
+             */
+            readonly available: boolean;
+            /** Frames */
+            readonly frames: readonly components["schemas"]["ProtocolFrame"][];
+            /**
+             * Lost
+             * @description Frames that were forgotten before they could be read
+             */
+            readonly lost: number;
+            /**
+             * Newest
+             * @description To be sent as ``after`` next time
+             */
+            readonly newest: number;
+        };
+        /**
          * Quantity
          * @description What is compared.
          * @enum {string}
@@ -3119,6 +4471,31 @@ export interface components {
             readonly updated_at: string;
         };
         /**
+         * RobotEvidence
+         * @description What a calibration of the robot rests on.
+         */
+        readonly RobotEvidence: {
+            /**
+             * Duration S
+             * @description Robot time
+             */
+            readonly duration_s: number;
+            /** Looks */
+            readonly looks: readonly components["schemas"]["LookRecord"][];
+            /**
+             * Sigma
+             * @description Standard deviation of each unknown
+             */
+            readonly sigma: {
+                readonly [key: string]: number;
+            };
+            /**
+             * Unseen
+             * @description What the looks could not tell, in sentences
+             */
+            readonly unseen: readonly string[];
+        };
+        /**
          * RobotFault
          * @description Why the robot stands still, in words a person can act on.
          */
@@ -3163,17 +4540,171 @@ export interface components {
          */
         readonly RobotMode: "offline" | "off" | "not_homed" | "homing" | "ready" | "moving" | "stopping" | "stopped" | "emergency_stop" | "fault";
         /**
+         * RobotRoutineRequest
+         * @description Measure the robot: 25 looks at the label of a vehicle that stands still.
+         */
+        readonly RobotRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "robot";
+            /**
+             * Label Sigma Mm
+             * @description How exactly the side of the printed label was measured
+             * @default 0.15
+             */
+            readonly label_sigma_mm?: number;
+            readonly left_belt?: components["schemas"]["BeltReading"] | null;
+            /** @description Without both the scale of everything is known to a quarter percent only */
+            readonly right_belt?: components["schemas"]["BeltReading"] | null;
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * RobotValues
+         * @description The mechanism, and how the camera on it is turned.
+         *
+         *     Where on the platform the camera sits, no motion of the robot tells: that stays as configured.
+         */
+        readonly RobotValues: {
+            /**
+             * Camera Rotation Rad
+             * @description Rotation vector of the camera on the platform
+             */
+            readonly camera_rotation_rad: readonly [
+                number,
+                number,
+                number
+            ];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "robot";
+            readonly mechanism: components["schemas"]["PlanarAsBuilt"];
+        };
+        /**
          * Role
          * @description What a person is to the robot.
          * @enum {string}
          */
         readonly Role: "viewer" | "resident" | "technician" | "owner";
         /**
+         * RollBack
+         * @description Go back to what was in force before.
+         */
+        readonly RollBack: {
+            readonly kind: components["schemas"]["CalibrationKind"];
+            /**
+             * Vehicle Id
+             * @description Of a socket: whose
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * Routine
+         * @description The routine under way, or the last one.
+         */
+        readonly Routine: {
+            /**
+             * Begun At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly begun_at: string;
+            /** Begun By */
+            readonly begun_by: string;
+            /**
+             * Calibration Id
+             * @description What came of it; nobody uses it yet
+             */
+            readonly calibration_id: string | null;
+            /**
+             * Check Id
+             * @description The check that was made
+             */
+            readonly check_id?: string | null;
+            /**
+             * Doing
+             * @description In a sentence
+             */
+            readonly doing: string;
+            /** Done */
+            readonly done: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "robot" | "socket" | "check";
+            /** Looks */
+            readonly looks: readonly components["schemas"]["RoutineLook"][];
+            /** @description Why it stands still, or has failed */
+            readonly problem: components["schemas"]["Problem"] | null;
+            /**
+             * State
+             * @description An interrupted one can be resumed where it was
+             * @enum {string}
+             */
+            readonly state: "running" | "interrupted" | "finished" | "failed" | "cancelled";
+            /**
+             * Total
+             * @description Places to look from; 0 until they are chosen
+             */
+            readonly total: number;
+        };
+        /**
+         * RoutineLook
+         * @description One place from which the label was looked for.
+         */
+        readonly RoutineLook: {
+            /** Seen */
+            readonly seen: boolean;
+            /**
+             * X Mm
+             * @description Of the platform, as far as known
+             */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
+        };
+        /**
          * Scope
          * @description What a key is for.
          * @enum {string}
          */
         readonly Scope: "read" | "operate" | "charge-point" | "service" | "admin";
+        /**
+         * SeenLabel
+         * @description A label that was read in the picture.
+         */
+        readonly SeenLabel: {
+            /** Centre Px */
+            readonly centre_px: readonly [
+                number,
+                number
+            ];
+            /**
+             * Outline Px
+             * @description Its border, in order, as the lens bends it
+             */
+            readonly outline_px: readonly (readonly [
+                number,
+                number
+            ])[];
+            /** Payload */
+            readonly payload: string;
+            /** @description Null when its size is unknown or nothing fits */
+            readonly pose: components["schemas"]["FittedPose"] | null;
+            /**
+             * Vehicle Id
+             * @description Whose label it is; null if nobody's
+             */
+            readonly vehicle_id: string | null;
+        };
         readonly ServerMessage: components["schemas"]["SnapshotMessage"] | components["schemas"]["DeltaMessage"] | components["schemas"]["ReplyMessage"];
         /**
          * Service
@@ -3325,6 +4856,44 @@ export interface components {
             readonly z_mm?: number;
         };
         /**
+         * SocketRoutineRequest
+         * @description Teach a socket: the plug has been brought all the way in, by jogging or by a job.
+         *
+         *     The robot looks, draws the plug out along its axis, and looks again. It moves nowhere else.
+         */
+        readonly SocketRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "socket";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * SocketValues
+         * @description Where the socket of one vehicle is beside its label, as taught with this robot.
+         *
+         *     It takes the place of what the vehicle's settings say.
+         */
+        readonly SocketValues: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "socket";
+            readonly socket: components["schemas"]["SocketOffset"];
+            /**
+             * Vehicle Id
+             * @description Chosen by the owner; stands in the QR label
+             * @example zoe
+             */
+            readonly vehicle_id: string;
+        };
+        /**
          * Station
          * @description Newest reading of the charging station.
          */
@@ -3374,6 +4943,21 @@ export interface components {
              * @enum {string}
              */
             readonly type: "stop";
+        };
+        /**
+         * TargetRequest
+         * @description Where the plug's tip shall be; how far it is out stays as it is.
+         */
+        readonly TargetRequest: {
+            /**
+             * Speed Mm S
+             * @default 10
+             */
+            readonly speed_mm_s?: number;
+            /** X Mm */
+            readonly x_mm: number;
+            /** Y Mm */
+            readonly y_mm: number;
         };
         /**
          * Tip
@@ -3483,6 +5067,32 @@ export interface components {
              *     }
              */
             readonly socket?: components["schemas"]["SocketOffset"];
+        };
+        /**
+         * Versions
+         * @description Software, firmware and the protocol between them.
+         */
+        readonly Versions: {
+            /**
+             * Board
+             * @description Null before the board has introduced itself
+             */
+            readonly board: string | null;
+            /** Firmware */
+            readonly firmware: string | null;
+            /** Libraries */
+            readonly libraries: readonly components["schemas"]["LibraryVersion"][];
+            /**
+             * Protocol Hash
+             * @description Of the protocol that this software speaks; a board whose firmware was built for another one is refused
+             */
+            readonly protocol_hash: string;
+            /** Python */
+            readonly python: string;
+            /** Software */
+            readonly software: string;
+            /** System */
+            readonly system: string;
         };
         /**
          * WayLeft
@@ -4914,6 +6524,884 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly listCalibrations: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Only of this kind */
+                readonly kind?: components["schemas"]["CalibrationKind"] | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly keepCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "source": "camera-0003.toml",
+                 *       "values": {
+                 *         "camera": {
+                 *           "cx": 818.2,
+                 *           "cy": 617.9,
+                 *           "fx": 1296.4,
+                 *           "fy": 1296.1,
+                 *           "height": 1232,
+                 *           "k1": 0.021,
+                 *           "k2": -0.034,
+                 *           "k3": 0,
+                 *           "p1": 0,
+                 *           "p2": 0,
+                 *           "width": 1640
+                 *         },
+                 *         "kind": "camera"
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["CalibrationEntry"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 201: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of calibrations */
+                readonly calibration_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "evidence": {
+                     *         "duration_s": 96.4,
+                     *         "looks": [
+                     *           {
+                     *             "covariance_mm2": [
+                     *               0.0001,
+                     *               0,
+                     *               0,
+                     *               0,
+                     *               0.0001,
+                     *               0,
+                     *               0,
+                     *               0,
+                     *               0.0025
+                     *             ],
+                     *             "label_mm": [
+                     *               12.1,
+                     *               -3.4,
+                     *               291
+                     *             ],
+                     *             "residual_mm": [
+                     *               0.011,
+                     *               -0.004,
+                     *               0.052
+                     *             ],
+                     *             "rho1_mm": 212.4,
+                     *             "rho2_mm": 180.9,
+                     *             "weight": 1
+                     *           }
+                     *         ],
+                     *         "sigma": {
+                     *           "left_leg_mm": 0.21
+                     *         },
+                     *         "unseen": []
+                     *       },
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationDetail"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly activateCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of calibrations */
+                readonly calibration_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "accept_worse": false
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["Activation"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "error": 0.034,
+                     *       "error_in_use": 2.41,
+                     *       "grade": "good",
+                     *       "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "in_force": true,
+                     *       "kind": "robot",
+                     *       "made_at": "2026-03-01T18:04:05.120Z",
+                     *       "made_by": "Anna",
+                     *       "remarks": [],
+                     *       "source": "25 looks at the label of Renault Zoe",
+                     *       "values": {
+                     *         "camera_rotation_rad": [
+                     *           0.013,
+                     *           -0.021,
+                     *           3.127
+                     *         ],
+                     *         "kind": "robot",
+                     *         "mechanism": {
+                     *           "left_foot_x_mm": 55,
+                     *           "left_foot_y_mm": 0,
+                     *           "left_leg_mm": 533.21,
+                     *           "left_rail_rad": 0.0021,
+                     *           "left_scale": 1.0024,
+                     *           "right_foot_x_mm": 1246.42,
+                     *           "right_foot_y_mm": -1.13,
+                     *           "right_leg_mm": 530.87,
+                     *           "right_rail_rad": -0.0021,
+                     *           "right_scale": 0.9981
+                     *         }
+                     *       },
+                     *       "version": 3
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Calibration"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listAccuracyChecks: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description The next_cursor of the page before; without it the first */
+                readonly cursor?: string | null;
+                /** @description Entries of one page */
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "items": [
+                     *         {
+                     *           "accuracy_mm": 0.031,
+                     *           "approaches": 3,
+                     *           "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "direction_variation_mm": 0.058,
+                     *           "duration_s": 141.2,
+                     *           "id": "01957a44-5b10-7c1e-8a37-92d6f0b41c58",
+                     *           "left_out": 0,
+                     *           "made_at": "2026-03-01T18:09:40.000Z",
+                     *           "made_by": "Anna",
+                     *           "places": [
+                     *             {
+                     *               "accuracy_mm": 0.031,
+                     *               "attained_mm": [
+                     *                 [
+                     *                   649.97,
+                     *                   335.02
+                     *                 ],
+                     *                 [
+                     *                   650.03,
+                     *                   335.04
+                     *                 ]
+                     *               ],
+                     *               "direction_variation_mm": 0.058,
+                     *               "repeatability_mm": 0.094,
+                     *               "x_mm": 650,
+                     *               "y_mm": 335
+                     *             }
+                     *           ],
+                     *           "repeatability_mm": 0.094
+                     *         }
+                     *       ],
+                     *       "next_cursor": null
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["AccuracyCheckPage"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getCalibrationNow: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "in_force": {
+                     *         "camera": null,
+                     *         "robot": {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         },
+                     *         "sockets": []
+                     *       },
+                     *       "routine": {
+                     *         "begun_at": "2026-03-01T18:02:11.400Z",
+                     *         "begun_by": "Anna",
+                     *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "check_id": null,
+                     *         "doing": "The calibration is done. Nobody uses it yet.",
+                     *         "done": 25,
+                     *         "kind": "robot",
+                     *         "looks": [
+                     *           {
+                     *             "seen": true,
+                     *             "x_mm": 642,
+                     *             "y_mm": 331.5
+                     *           }
+                     *         ],
+                     *         "problem": null,
+                     *         "state": "finished",
+                     *         "total": 25
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationNow"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly rollBackCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "kind": "robot"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["RollBack"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "in_force": {
+                     *         "camera": null,
+                     *         "robot": {
+                     *           "error": 0.034,
+                     *           "error_in_use": 2.41,
+                     *           "grade": "good",
+                     *           "id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *           "in_force": true,
+                     *           "kind": "robot",
+                     *           "made_at": "2026-03-01T18:04:05.120Z",
+                     *           "made_by": "Anna",
+                     *           "remarks": [],
+                     *           "source": "25 looks at the label of Renault Zoe",
+                     *           "values": {
+                     *             "camera_rotation_rad": [
+                     *               0.013,
+                     *               -0.021,
+                     *               3.127
+                     *             ],
+                     *             "kind": "robot",
+                     *             "mechanism": {
+                     *               "left_foot_x_mm": 55,
+                     *               "left_foot_y_mm": 0,
+                     *               "left_leg_mm": 533.21,
+                     *               "left_rail_rad": 0.0021,
+                     *               "left_scale": 1.0024,
+                     *               "right_foot_x_mm": 1246.42,
+                     *               "right_foot_y_mm": -1.13,
+                     *               "right_leg_mm": 530.87,
+                     *               "right_rail_rad": -0.0021,
+                     *               "right_scale": 0.9981
+                     *             }
+                     *           },
+                     *           "version": 3
+                     *         },
+                     *         "sockets": []
+                     *       },
+                     *       "routine": {
+                     *         "begun_at": "2026-03-01T18:02:11.400Z",
+                     *         "begun_by": "Anna",
+                     *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *         "check_id": null,
+                     *         "doing": "The calibration is done. Nobody uses it yet.",
+                     *         "done": 25,
+                     *         "kind": "robot",
+                     *         "looks": [
+                     *           {
+                     *             "seen": true,
+                     *             "x_mm": 642,
+                     *             "y_mm": 331.5
+                     *           }
+                     *         ],
+                     *         "problem": null,
+                     *         "state": "finished",
+                     *         "total": 25
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CalibrationNow"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly beginCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 202: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly cancelCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly resumeCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "state": "finished",
+                     *       "total": 25
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly inspectCamera: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description Number of the one that is known already */
+                readonly after?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "age_s": 0.0871,
+                     *       "bright_share": 0.0004,
+                     *       "brightness": 108.4,
+                     *       "dark_share": 0.0021,
+                     *       "exposure_ms": 8,
+                     *       "frames_per_s": 29.97,
+                     *       "height_px": 1232,
+                     *       "label": {
+                     *         "centre_px": [
+                     *           735.61,
+                     *           514.07
+                     *         ],
+                     *         "outline_px": [
+                     *           [
+                     *             612.4,
+                     *             388.1
+                     *           ],
+                     *           [
+                     *             861.9,
+                     *             391.6
+                     *           ],
+                     *           [
+                     *             858.2,
+                     *             640.7
+                     *           ],
+                     *           [
+                     *             609.8,
+                     *             636
+                     *           ]
+                     *         ],
+                     *         "payload": "PP2:zoe:4NG43RRFJW",
+                     *         "pose": {
+                     *           "axes_px": [
+                     *             [
+                     *               860.2,
+                     *               516.2
+                     *             ],
+                     *             [
+                     *               733.9,
+                     *               638.4
+                     *             ],
+                     *             [
+                     *               742,
+                     *               509.3
+                     *             ]
+                     *           ],
+                     *           "ellipse": {
+                     *             "angle_rad": 0.4121,
+                     *             "major_px": 0.013312,
+                     *             "minor_px": 0.012204
+                     *           },
+                     *           "inlier_share": 0.9781,
+                     *           "measurements": 1264,
+                     *           "position_mm": [
+                     *             -14.231,
+                     *             7.9,
+                     *             318.442
+                     *           ],
+                     *           "position_sigma_mm": [
+                     *             0.00412,
+                     *             0.00398,
+                     *             0.02103
+                     *           ],
+                     *           "residual_px": 0.0814,
+                     *           "source": "edges",
+                     *           "turn_deg": [
+                     *             1.204,
+                     *             -0.871,
+                     *             0.402
+                     *           ],
+                     *           "turn_sigma_deg": [
+                     *             0.02113,
+                     *             0.01987,
+                     *             0.00304
+                     *           ]
+                     *         },
+                     *         "vehicle_id": "zoe"
+                     *       },
+                     *       "sequence": 42,
+                     *       "taken_at": "2026-03-01T18:04:05.120Z",
+                     *       "trouble": null,
+                     *       "width_px": 1640
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["CameraInspection"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getInspectedPicture: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly sequence: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The picture */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "image/jpeg": unknown;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getCameraSnapshot: {
         readonly parameters: {
             readonly query?: never;
@@ -5284,6 +7772,225 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly checkConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "webhooks": {
+                 *         "timeout_s": 5
+                 *       }
+                 *     }
+                 */
+                readonly "application/json": {
+                    readonly [key: string]: {
+                        readonly [key: string]: components["schemas"]["JsonValue"];
+                    };
+                };
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "differences": [
+                     *         {
+                     *           "after": 5,
+                     *           "before": 10,
+                     *           "key": "webhooks.timeout_s"
+                     *         }
+                     *       ],
+                     *       "troubles": []
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationCheck"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getConfigFields: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "fields": [
+                     *         {
+                     *           "changeable": true,
+                     *           "choices": [],
+                     *           "key": "webhooks.timeout_s",
+                     *           "kind": "number",
+                     *           "least": 0,
+                     *           "most": 60,
+                     *           "optional": false,
+                     *           "words": "Longest time of one attempt"
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationFields"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listConfigVersions: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "versions": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "by": "person: Anna",
+                     *           "changes": {
+                     *             "webhooks": {
+                     *               "timeout_s": 5
+                     *             }
+                     *           },
+                     *           "number": 2
+                     *         },
+                     *         {
+                     *           "at": null,
+                     *           "by": "",
+                     *           "changes": {},
+                     *           "number": 0
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ConfigurationHistory"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly restoreConfig: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: {
+                /** @description The ETag of what is to be changed, as it was last read; * means whatever there is */
+                readonly "if-match"?: string | null;
+            };
+            readonly path: {
+                readonly number: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    /** @description Version of this; send it as If-Match with a change */
+                    readonly ETag?: string;
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "changeable": [
+                     *         "charge_point",
+                     *         "logging",
+                     *         "webhooks"
+                     *       ],
+                     *       "settings": {
+                     *         "logging": {
+                     *           "level": "info"
+                     *         },
+                     *         "server": {
+                     *           "host": "127.0.0.1",
+                     *           "port": 8000
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Configuration"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 412: components["responses"]["Problem412"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 428: components["responses"]["Problem428"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getDiagnostics: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description A zip file */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/zip": string;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly listEvents: {
         readonly parameters: {
             readonly query?: {
@@ -5401,6 +8108,7 @@ export interface operations {
                      *       "driver_faces": "robot",
                      *       "headline": "Go on forward",
                      *       "max_skew_deg": 3,
+                     *       "reason": "rolls",
                      *       "remedy": "",
                      *       "since": "2026-03-01T18:04:03.400Z",
                      *       "state": "move",
@@ -6327,6 +9035,62 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly readFrames: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description ``newest`` of the last answer */
+                readonly after?: number;
+                readonly limit?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "available": true,
+                     *       "frames": [
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "direction": "to_board",
+                     *           "error": false,
+                     *           "kind": "Heartbeat",
+                     *           "number": 1041,
+                     *           "size_bytes": 8,
+                     *           "words": "seq=0 ack=0"
+                     *         },
+                     *         {
+                     *           "at": "2026-03-01T18:04:05.120Z",
+                     *           "direction": "from_board",
+                     *           "error": true,
+                     *           "kind": "Event",
+                     *           "number": 1042,
+                     *           "size_bytes": 16,
+                     *           "words": "seq=3 ack=18 kind=REFUSED code=8 seq=17 detail=0 tick=812034"
+                     *         }
+                     *       ],
+                     *       "lost": 0,
+                     *       "newest": 1042
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["ProtocolFrames"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly homeRobot: {
         readonly parameters: {
             readonly query?: never;
@@ -6721,6 +9485,125 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly chooseTarget: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "speed_mm_s": 10,
+                 *       "x_mm": 700,
+                 *       "y_mm": 360
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["TargetRequest"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "distance_mm": 87.641,
+                     *       "duration_s": 9.014,
+                     *       "forces": [
+                     *         {
+                     *           "at_s": 9.014,
+                     *           "force_n": 61.2,
+                     *           "joint": "rho1",
+                     *           "limit_n": 150,
+                     *           "share": 0.408
+                     *         },
+                     *         {
+                     *           "at_s": 0,
+                     *           "force_n": -58.7,
+                     *           "joint": "rho2",
+                     *           "limit_n": 150,
+                     *           "share": 0.3913
+                     *         },
+                     *         {
+                     *           "at_s": 0,
+                     *           "force_n": -9.4,
+                     *           "joint": "rho3",
+                     *           "limit_n": 120,
+                     *           "share": 0.0783
+                     *         }
+                     *       ],
+                     *       "id": "0d4b7b0e-6f0b-4a53-9a55-7a2f0c1b9d11",
+                     *       "joints": {
+                     *         "rho1_mm": 489.132,
+                     *         "rho2_mm": 611.07,
+                     *         "rho3_mm": 50
+                     *       },
+                     *       "tip": {
+                     *         "x_mm": 700,
+                     *         "y_mm": 360,
+                     *         "z_mm": 142
+                     *       },
+                     *       "way": [
+                     *         {
+                     *           "x_mm": 616,
+                     *           "y_mm": 335,
+                     *           "z_mm": 142
+                     *         },
+                     *         {
+                     *           "x_mm": 658,
+                     *           "y_mm": 347.5,
+                     *           "z_mm": 142
+                     *         },
+                     *         {
+                     *           "x_mm": 700,
+                     *           "y_mm": 360,
+                     *           "z_mm": 142
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["MoveTarget"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly forgetTarget: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getSimulatedCar: {
         readonly parameters: {
             readonly query?: never;
@@ -7062,6 +9945,46 @@ export interface operations {
             readonly 409: components["responses"]["Problem409"];
             readonly 412: components["responses"]["Problem412"];
             readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getVersions: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "board": "Me Auriga",
+                     *       "firmware": "1.0.0",
+                     *       "libraries": [
+                     *         {
+                     *           "name": "fastapi",
+                     *           "version": "0.115.6"
+                     *         }
+                     *       ],
+                     *       "protocol_hash": "13345a36",
+                     *       "python": "3.11.9",
+                     *       "software": "0.1.0",
+                     *       "system": "Linux 6.6.31 aarch64"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Versions"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

@@ -14,16 +14,20 @@ export type JobType = Schemas["JobType"];
 export type JobState = Schemas["JobState"];
 export type JobPhase = Schemas["JobPhase"];
 export type JobRequest = Schemas["JobRequest"];
+export type NeedsPerson = Schemas["NeedsPerson"];
 export type JobPage = Schemas["JobPage"];
 export type Playback = Schemas["Playback"];
 export type Guidance = Schemas["Guidance"];
 export type GuidanceStep = Schemas["GuidanceStep"];
+export type GuidanceReason = Guidance["reason"];
 export type GuidedCar = Schemas["GuidedCar"];
 export type CarCommand =
   | Schemas["DriveIn"]
   | Schemas["DriveOn"]
   | Schemas["Brake"]
   | Schemas["Leave"];
+export type Divergence = Schemas["DivergenceReport"];
+export type Quantity = Schemas["Quantity"];
 export type Problem = Schemas["Problem"];
 export type Vehicle = Schemas["Vehicle"];
 export type VehicleList = Schemas["VehicleList"];
@@ -34,6 +38,17 @@ export type ReplyMessage = Schemas["ReplyMessage"];
 export type ServerMessage = SnapshotMessage | DeltaMessage | ReplyMessage;
 
 export type Reach = Schemas["Reach"];
+export type Configuration = Schemas["Configuration"];
+export type ConfigurationCheck = Schemas["ConfigurationCheck"];
+export type ConfigurationField = Schemas["ConfigurationField"];
+export type ConfigurationFields = Schemas["ConfigurationFields"];
+export type ConfigurationHistory = Schemas["ConfigurationHistory"];
+export type ConfigurationVersion = Schemas["ConfigurationVersion"];
+export type Versions = Schemas["Versions"];
+export type ProtocolFrame = Schemas["ProtocolFrame"];
+export type ProtocolFrames = Schemas["ProtocolFrames"];
+export type MoveTarget = Schemas["MoveTarget"];
+export type CameraInspection = Schemas["CameraInspection"];
 export type JogMessage = Schemas["JogMessage"];
 export type JogStepMessage = Schemas["JogStepMessage"];
 export type JogAxis = JogMessage["axis"];

@@ -1,5 +1,6 @@
 /** What a screen reader says: every new state, but numbers only when they have changed well. */
 import type { Guidance } from "@/api/wire";
+import type { Instruction } from "./instruction";
 
 const PAUSE_MS = 2500;
 const SHARE = 0.3;
@@ -9,7 +10,7 @@ export class Announcer {
   private text = "";
 
   /** The text to have in the live region now. */
-  next(guidance: Guidance, nowMs: number): string {
+  next(guidance: Guidance, told: Instruction, nowMs: number): string {
     const [step] = guidance.steps;
     const now = {
       state: guidance.state,
@@ -19,7 +20,7 @@ export class Announcer {
     };
     if (this.isNews(now)) {
       this.said = now;
-      this.text = [guidance.headline, guidance.detail, guidance.remedy]
+      this.text = [told.headline, told.detail, told.remedy]
         .filter((part) => part !== "")
         .join(". ")
         .replaceAll("..", ".");

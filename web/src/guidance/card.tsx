@@ -1,10 +1,12 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { may } from "@/access/session";
-import type { Guidance } from "@/api/wire";
+import type { Guidance, GuidanceStep } from "@/api/wire";
+import { formatNumber } from "@/format";
 import { store } from "@/live/page";
 import { Announcer } from "./announcer";
 import { Sign } from "./icons";
+import { distanceParts, formatLimit, instructionOf } from "./instruction";
 import { SimulatedCar } from "./simulated-car";
 import { TopView } from "./top-view";
 import { bigStep, iconOf, toneOf } from "./view";
@@ -56,24 +58,21 @@ function isAway(card: HTMLElement | null): boolean {
 
 function Shown({ guidance }: { guidance: Guidance }) {
   const step = bigStep(guidance);
+  const told = instructionOf(guidance);
   return (
     <div data-tone={toneOf(guidance)} data-stale={store.stale.value} data-state={guidance.state}>
       <div class="order">
         <Sign icon={iconOf(guidance)} />
         {step === null ? (
-          <p class="order-word">{guidance.headline}</p>
+          <p class="order-word">{told.headline}</p>
         ) : (
-          <p class="order-number">
-            <strong>{say.number(step.shown_cm).value}</strong>
-            <span class="order-unit">{say.number(step.shown_cm).unit}</span>
-            <span class="order-way">{say.directions[step.direction]}</span>
-          </p>
+          <BigStep step={step} />
         )}
       </div>
       {guidance.state !== "paused" && <TopView guidance={guidance} />}
       <div class="order-more">
-        <p class="order-detail">{guidance.detail}</p>
-        {guidance.remedy !== "" && <p class="order-remedy">{guidance.remedy}</p>}
+        <p class="order-detail">{told.detail}</p>
+        {told.remedy !== "" && <p class="order-remedy">{told.remedy}</p>}
         <Facts guidance={guidance} />
       </div>
       <Spoken guidance={guidance} />
@@ -81,16 +80,30 @@ function Shown({ guidance }: { guidance: Guidance }) {
   );
 }
 
+function BigStep({ step: { shown_cm, direction } }: { step: GuidanceStep }) {
+  const { value, unit } = distanceParts(shown_cm);
+  return (
+    <p class="order-number">
+      <strong>{value}</strong>
+      <span class="order-unit">{unit}</span>
+      <span class="order-way">{say.directions[direction]}</span>
+    </p>
+  );
+}
+
 /** What is known besides: speed, skew, certainty. */
 function Facts({ guidance }: { guidance: Guidance }) {
   const { car, max_skew_deg } = guidance;
   if (car === null) return null;
+  const sigma_mm = Math.hypot(car.sigma_x_mm, car.sigma_z_mm);
   const speed = Math.hypot(car.velocity_x_mm_s, car.velocity_z_mm_s);
   return (
     <ul class="facts soft">
-      {!car.still && <li>{say.speed(speed)}</li>}
-      {car.skew_sigma_deg < 2 && <li>{say.skew(car.skew_deg, max_skew_deg)}</li>}
-      <li>{say.sigma(Math.hypot(car.sigma_x_mm, car.sigma_z_mm))}</li>
+      {!car.still && <li>{`${formatNumber(speed / 10, 0)} cm/s`}</li>}
+      {car.skew_sigma_deg < 2 && (
+        <li>{say.skew(formatNumber(car.skew_deg, 0), formatLimit(max_skew_deg))}</li>
+      )}
+      <li>{say.sigma(formatNumber(sigma_mm, sigma_mm < 10 ? 1 : 0))}</li>
     </ul>
   );
 }
@@ -100,7 +113,7 @@ function Spoken({ guidance }: { guidance: Guidance }) {
   const announcer = useRef(new Announcer());
   return (
     <p class="unseen" aria-live="polite" aria-atomic="true">
-      {announcer.current.next(guidance, performance.now())}
+      {announcer.current.next(guidance, instructionOf(guidance), performance.now())}
     </p>
   );
 }

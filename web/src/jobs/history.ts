@@ -3,7 +3,8 @@ import { signal } from "@preact/signals";
 import { listJobs, Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { Job } from "@/api/wire";
-import { formatEnergy } from "@/format";
+import { formatEnergy, formatMoney } from "@/format";
+import { told } from "@/language/problems";
 import { words } from "@/words";
 import { isActive } from "@/robot/job";
 
@@ -22,13 +23,20 @@ export async function loadHistory(): Promise<void> {
   }
 }
 
+/** What a job has cost so far; null where nobody has set a tariff. */
+export function costOf({ result: { cost, currency } }: Job): string | null {
+  return cost == null || currency == null ? null : formatMoney(cost, currency);
+}
+
 /** What became of a job, in a few words. */
 export function outcomeOf(job: Job): string {
   const say = words.history;
   if (job.state === "cancelled") return say.cancelled;
-  if (job.state === "failed") return job.error?.title ?? say.failed;
+  if (job.state === "failed") return job.error === null ? say.failed : told(job.error).title;
   if (job.type === "charge" && job.result.energy_wh != null) {
-    return say.charged(formatEnergy(job.result.energy_wh));
+    const energy = formatEnergy(job.result.energy_wh);
+    const cost = costOf(job);
+    return cost === null ? say.charged(energy) : say.chargedFor(energy, cost);
   }
   return say.done[job.type];
 }

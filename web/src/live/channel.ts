@@ -2,12 +2,15 @@
 import type { ClientMessage, Question, ReplyMessage, ServerMessage, StopKind } from "@/api/wire";
 import type { LiveStore } from "./store";
 
-const BACK_OFF_MS = [250, 500, 1000, 2000, 4000, 8000] as const;
+/** A robot that is back is on the page again within two seconds; a try each second costs nothing. */
+const BACK_OFF_MS = [250, 500, 1000] as const;
 const TICK_MS = 200;
 /** A connection this many stale periods silent is dead, even if no one said so. */
 const DEAD_AFTER_PERIODS = 5;
 const OPEN_PATIENCE_MS = 6000;
 const REPLY_PATIENCE_MS = 400;
+/** After a sleep the connection may be dead without knowing: so long it has for a sign of life. */
+const WAKE_PATIENCE_MS = 1000;
 
 /** What the channel needs of the browser; tests bring their own. */
 export interface Surroundings {
@@ -33,6 +36,8 @@ export class LiveChannel {
   private attempts = 0;
   private openedAtMs = 0;
   private probed = false;
+  /** Until when a connection that slept must have said something; null when nobody asks. */
+  private proveByMs: number | null = null;
   private retry: ReturnType<typeof setTimeout> | null = null;
   private ticker: ReturnType<typeof setInterval> | null = null;
   private nextId = 1;
@@ -62,6 +67,15 @@ export class LiveChannel {
     clearTimeout(this.retry);
     this.retry = null;
     this.connect();
+  }
+
+  /** The page woke up: tries again at once, or asks a connection that slept whether it lives. */
+  wake(): void {
+    if (this.retry !== null) {
+      this.hurry();
+    } else if (this.tell({ type: "resync" })) {
+      this.proveByMs = this.around.nowMs() + WAKE_PATIENCE_MS;
+    }
   }
 
   /** Sends a stop; resolves to whether the server confirmed it in time. */
@@ -98,6 +112,7 @@ export class LiveChannel {
     this.socket = socket;
     this.openedAtMs = this.around.nowMs();
     this.probed = false;
+    this.proveByMs = null;
     socket.onmessage = (event: MessageEvent<string>) => {
       this.receive(JSON.parse(event.data) as ServerMessage);
     };
@@ -110,6 +125,7 @@ export class LiveChannel {
   private receive(message: ServerMessage): void {
     const nowMs = this.around.nowMs();
     this.probed = false;
+    this.proveByMs = null;
     switch (message.type) {
       case "snapshot":
         this.attempts = 0;
@@ -143,7 +159,10 @@ export class LiveChannel {
     const { heardAtMs, staleAfterMs } = this.store;
     if (heardAtMs === null) {
       if (nowMs - this.openedAtMs > OPEN_PATIENCE_MS) this.giveUp();
-    } else if (nowMs - heardAtMs > staleAfterMs * DEAD_AFTER_PERIODS) {
+    } else if (
+      nowMs - heardAtMs > staleAfterMs * DEAD_AFTER_PERIODS ||
+      (this.proveByMs !== null && nowMs > this.proveByMs)
+    ) {
       this.giveUp();
     } else if (nowMs - heardAtMs > staleAfterMs / 2 && !this.probed) {
       this.probed = true;

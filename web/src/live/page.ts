@@ -10,9 +10,12 @@ export const channel = new LiveChannel(store);
 /** Connects, and comes back quickly when the network or the reader does. */
 export function connect(): void {
   channel.start();
-  addEventListener("online", () => channel.hurry());
+  addEventListener("online", () => channel.wake());
+  // A page that was frozen, or kept for the way back, has not seen its connection end.
+  document.addEventListener("resume", () => channel.wake());
+  addEventListener("pageshow", () => channel.wake());
   document.addEventListener("visibilitychange", () => {
-    if (document.visibilityState === "visible") channel.hurry();
+    if (document.visibilityState === "visible") channel.wake();
   });
 }
 

@@ -46,12 +46,12 @@ export function Header() {
 /** The name and its sign. */
 export function Brand() {
   return (
-    <a class="brand" href="/">
+    <a class="brand" href="/" aria-label="PlugPilot">
       <svg viewBox="0 0 32 32" aria-hidden="true">
         <rect width="32" height="32" rx="9" />
         <path d="M18 5 9 18h6l-1 9 9-13h-6z" />
       </svg>
-      PlugPilot
+      <span>PlugPilot</span>
     </a>
   );
 }

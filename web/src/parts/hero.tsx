@@ -1,5 +1,6 @@
 import { may } from "@/access/session";
 import { say } from "@/access/words";
+import { told } from "@/language/problems";
 import { store } from "@/live/page";
 import { pending, press, trouble } from "@/robot/actions";
 import type { Action } from "@/robot/describe";
@@ -87,7 +88,7 @@ function OtherButtons({ others }: { others: readonly Action[] }) {
 
 /** Why the last press did not work, in words, until it is put away or the next press. */
 function TroubleNote() {
-  const found = trouble.value;
+  const found = trouble.value === null ? null : told(trouble.value);
   return (
     <div role="alert">
       {found !== null && (

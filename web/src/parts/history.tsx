@@ -1,9 +1,11 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import type { Trouble } from "@/api/client";
 import type { Job } from "@/api/wire";
 import { formatDate, formatSize } from "@/format";
 import { history, historyTrouble, loadHistory, outcomeOf } from "@/jobs/history";
 import { watchAgain } from "@/jobs/replay";
+import { told } from "@/language/problems";
 import { store } from "@/live/page";
 import { words } from "@/words";
 
@@ -34,7 +36,7 @@ function Jobs() {
   useEffect(() => {
     void loadHistory();
   }, [newest]);
-  if (historyTrouble.value !== null) return <p class="soft">{historyTrouble.value.detail}</p>;
+  if (historyTrouble.value !== null) return <p class="soft">{whyNot(historyTrouble.value)}</p>;
   if (history.value === null) return <p class="soft">{words.views.loading}</p>;
   if (history.value.length === 0) return <p class="soft">{words.history.none}</p>;
   return (
@@ -44,6 +46,12 @@ function Jobs() {
       ))}
     </ol>
   );
+}
+
+/** What happened, or where that is known in English only, what it is called. */
+function whyNot(trouble: Trouble): string {
+  const { title, detail } = told(trouble);
+  return detail === "" ? `${title}.` : detail;
 }
 
 function Row({ job }: { job: Job }) {

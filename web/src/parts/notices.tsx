@@ -2,6 +2,7 @@ import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import type { Job, Live } from "@/api/wire";
 import { formatDate } from "@/format";
+import { told } from "@/language/problems";
 import { store } from "@/live/page";
 import { cancelWaiting, pending, resumeWaiting } from "@/robot/actions";
 import { isActive } from "@/robot/job";
@@ -11,13 +12,14 @@ import { words } from "@/words";
 /** What else a person should know: nothing can be saved, or another job waits. */
 export function Notices() {
   const storage = useComputed(() => store.live.value?.service.storage ?? null).value;
+  const trouble = storage === null ? null : told(storage);
   const waiting = useComputed(() => waitingJob(store.live.value)).value;
   return (
     <>
       <Notice tone="problem" title={words.storage.title} shown={storage !== null}>
         <p>{words.storage.detail}</p>
         <p>
-          <strong>{storage?.title}.</strong> {storage?.remedy}
+          <strong>{trouble?.title}.</strong> {trouble?.remedy}
         </p>
       </Notice>
       <Notice tone="calm" title={words.waiting.title} shown={waiting !== null}>

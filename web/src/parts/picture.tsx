@@ -1,4 +1,5 @@
-import type { Scene, Tone } from "@/robot/describe";
+import type { Tone } from "@/robot/describe";
+import type { Scene } from "@/robot/scene";
 
 interface PictureProps extends Scene {
   readonly tone: Tone;

@@ -9,7 +9,6 @@ import { plan, planning } from "@/robot/actions";
 import { words } from "@/words";
 import { Modal } from "./modal";
 
-const say = words.plan;
 const MOST_KWH = 200;
 
 /** When to begin, when to be ready, and how much. */
@@ -19,6 +18,7 @@ export function PlanDialog() {
 }
 
 function PlanForm({ vehicles }: { vehicles: readonly Vehicle[] }) {
+  const say = words.plan;
   const vehicle = useSignal(vehicles[0]!.id);
   const begin = useSignal<string | null>(null);
   const ready = useSignal<string | null>("07:00");

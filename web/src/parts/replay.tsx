@@ -11,6 +11,7 @@ import {
   replayed,
   replayTrouble,
 } from "@/jobs/replay";
+import { told } from "@/language/problems";
 import { words } from "@/words";
 import { Modal } from "./modal";
 
@@ -18,7 +19,7 @@ import { Modal } from "./modal";
 export function ReplayDialog() {
   const job = replayed.value;
   if (job === null) return null;
-  const trouble = replayTrouble.value;
+  const trouble = replayTrouble.value === null ? null : told(replayTrouble.value);
   return (
     <Modal key={job.id} title={formatDate(job.created_at)} wide onClose={closeReplay}>
       {trouble !== null && (

@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { formatForce, formatPoint } from "@/format";
+import type { Robot } from "@/api/wire";
+import { formatForce, formatNumber, formatPoint } from "@/format";
 import { store } from "@/live/page";
 import { command, pending, pressStop } from "@/robot/actions";
 import { canAct } from "@/robot/view";
@@ -44,8 +45,9 @@ function RobotFigures() {
           {measured === null ? say.unknown : formatForce(measured.force_n)}
         </Row>
         <Row label={say.socket}>
-          {socket === null ? say.unknown : `± ${socket.lateral_sigma_mm.toFixed(2)} mm`}
+          {socket === null ? say.unknown : `± ${formatNumber(socket.lateral_sigma_mm, 2)} mm`}
         </Row>
+        <Row label={say.control}>{holderOf(robot)}</Row>
         <Row label={say.driver}>{robot.driver}</Row>
         {service.simulated_parts.length > 0 && (
           <Row label={say.simulated}>
@@ -84,6 +86,12 @@ function RobotFigures() {
       </button>
     </>
   );
+}
+
+/** Who may move the robot now; everybody else has to wait, but may stop it. */
+function holderOf({ control }: Robot): string {
+  if (control === null) return words.robot.nobody;
+  return control.kind === "job" ? words.robot.byJob : control.name;
 }
 
 function Row({ label, children }: { label: string; children: ComponentChildren }) {

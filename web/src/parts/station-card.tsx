@@ -2,6 +2,7 @@ import { useComputed } from "@preact/signals";
 import type { ReadonlySignal } from "@preact/signals";
 import type { Live } from "@/api/wire";
 import { formatDuration, formatEnergy, formatForce, formatPower } from "@/format";
+import { costOf } from "@/jobs/history";
 import { store } from "@/live/page";
 import { isActive, phaseElapsedS } from "@/robot/job";
 import { words } from "@/words";
@@ -38,9 +39,17 @@ export function StationCard() {
   const time = (
     <Figure label={words.station.elapsed} show={(l) => formatDuration(phaseElapsedS(l))} />
   );
+  const cost = (
+    <Figure
+      label={words.station.cost}
+      show={({ job }) => (job === null ? "" : (costOf(job) ?? ""))}
+    />
+  );
+  const priced = store.live.value?.job?.result.cost != null && running;
   return (
     <dl class="figures" data-stale={store.stale.value}>
       {kind.value === "charging" ? [power, energy] : force}
+      {kind.value === "charging" && priced && cost}
       {running && time}
     </dl>
   );

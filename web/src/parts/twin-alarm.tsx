@@ -1,6 +1,15 @@
 import { useComputed } from "@preact/signals";
+import type { Divergence } from "@/api/wire";
+import { formatNumber } from "@/format";
 import { store } from "@/live/page";
 import { words } from "@/words";
+
+/** What was measured, beside what a good robot would measure. */
+function figuresOf({ quantity, measured, expected, unit }: Divergence): string {
+  const digits = quantity === "force" ? 0 : quantity === "phase_time" ? 1 : 2;
+  const withUnit = (value: number): string => `${formatNumber(value, digits)} ${unit}`;
+  return words.twin.figures(withUnit(measured), withUnit(expected));
+}
 
 /** Says in words where the robot and the model beside it have parted. */
 export function TwinAlarm() {
@@ -14,7 +23,7 @@ export function TwinAlarm() {
           <ul>
             {found.map((each) => (
               <li key={each.quantity}>
-                <strong>{each.title}.</strong> {each.message}
+                <strong>{words.twin.found[each.quantity]}.</strong> {figuresOf(each)}
               </li>
             ))}
           </ul>

@@ -1,8 +1,11 @@
 /** The state of the robot in a sentence, a picture and one thing to do. */
-import type { Job, JobPhase, Live, Robot } from "@/api/wire";
+import type { Job, JobPhase, Live, NeedsPerson, Robot } from "@/api/wire";
 import { formatDate, formatEnergy } from "@/format";
+import { told } from "@/language/problems";
 import { words } from "@/words";
 import { isActive, isMovingPhase, isReturning, isUnderWay } from "./job";
+import { armOf, sceneOf } from "./scene";
+import type { Scene } from "./scene";
 
 export type Tone = "calm" | "busy" | "good" | "ask" | "problem";
 
@@ -21,12 +24,6 @@ export type ActionKind =
 export interface Action {
   readonly kind: ActionKind;
   readonly label: string;
-}
-
-/** How far the arm is out, and the mark beside it. */
-export interface Scene {
-  readonly arm: "parked" | "out" | "near" | "in";
-  readonly mark: "none" | "search" | "bolt" | "alert" | "question" | "asleep" | "sync";
 }
 
 export interface Description {
@@ -50,10 +47,6 @@ interface Sentence {
 
 /** So long a finished charge stays the headline. */
 const NEWS_MS = 30 * 60 * 1000;
-
-const say = words.state;
-const label = words.action;
-const PAUSE: Action = { kind: "pause", label: label.pause };
 
 /**
  * Describes every live state.
@@ -103,8 +96,8 @@ function describeHalt(robot: Robot, base: Base): Description | null {
     case "offline":
       return {
         ...base,
-        ...withPlugNote(faultSentence(robot) ?? say.offline, robot),
-        remedy: robot.fault?.remedy ?? "",
+        ...withPlugNote(faultSentence(robot) ?? words.state.offline, robot),
+        remedy: remedyOf(robot) ?? "",
         tone: "problem",
         scene: { arm: armOf(robot), mark: "asleep" },
         action: null,
@@ -112,31 +105,31 @@ function describeHalt(robot: Robot, base: Base): Description | null {
     case "emergency_stop":
       return {
         ...base,
-        ...withPlugNote(say.emergency, robot),
-        remedy: robot.fault?.remedy ?? say.emergencyRemedy,
+        ...withPlugNote(words.state.emergency, robot),
+        remedy: remedyOf(robot) ?? words.state.emergencyRemedy,
         tone: "problem",
         scene: alert,
-        action: { kind: "reset", label: label.release },
+        action: { kind: "reset", label: words.action.release },
       };
     case "fault":
       return {
         ...base,
-        ...withPlugNote(faultSentence(robot) ?? say.faultUnnamed, robot),
-        remedy: robot.fault?.remedy ?? "",
+        ...withPlugNote(faultSentence(robot) ?? words.state.faultUnnamed, robot),
+        remedy: remedyOf(robot) ?? "",
         tone: "problem",
         scene: alert,
-        action: { kind: "reset", label: label.clear },
+        action: { kind: "reset", label: words.action.clear },
       };
     case "stopped":
       return {
         ...base,
-        ...withPlugNote(say.stopped, robot),
+        ...withPlugNote(words.state.stopped, robot),
         tone: "ask",
         scene: alert,
-        action: { kind: "reset", label: label.release },
+        action: { kind: "reset", label: words.action.release },
       };
     case "stopping":
-      return { ...base, ...say.stopping, tone: "ask", scene: alert, action: null };
+      return { ...base, ...words.state.stopping, tone: "ask", scene: alert, action: null };
     default:
       return null;
   }
@@ -148,40 +141,40 @@ function describeJob(robot: Robot, job: Job, base: Base): Description {
     const scene: Scene = { arm: armOf(robot), mark: "sync" };
     const start = job.not_before ?? null;
     if (start === null || Date.parse(start) <= Date.parse(robot.updated_at)) {
-      return { ...base, ...say.queued, tone: "busy", scene, action };
+      return { ...base, ...words.state.queued, tone: "busy", scene, action };
     }
-    const planned = say.planned(formatDate(start), job.unplug_by == null ? null : formatDate(job.unplug_by));
+    const planned = words.state.planned(formatDate(start), job.unplug_by == null ? null : formatDate(job.unplug_by));
     return { ...base, ...planned, tone: "calm", scene: { ...scene, mark: "none" }, action };
   }
   if (!isUnderWay(job)) return describeWaiting(robot, job, base);
   const scene = sceneOf(job, robot);
   if (job.cancel_requested && !isReturning(job.phase)) {
-    const sentence = isMovingPhase(job.phase) ? say.cancelling : say.ending;
+    const sentence = isMovingPhase(job.phase) ? words.state.cancelling : words.state.ending;
     return { ...base, ...sentence, tone: "busy", scene, action: null };
   }
   const findsPosition = job.phase === "preflight" && robot.mode === "homing";
-  const { headline, detail } = findsPosition ? say.homing : words.phases[job.phase];
+  const { headline, detail } = findsPosition ? words.state.homing : words.phases[job.phase];
   const tone = job.phase === "charging" || job.phase === "plugged" ? "good" : "busy";
-  const others = isPausable(job.phase) ? [PAUSE] : [];
+  const others = isPausable(job.phase) ? [pause()] : [];
   return { ...base, headline, detail, tone, scene, action: actionOf(job), others };
 }
 
 /** Paused, or waiting for a person to decide. */
 function describeWaiting(robot: Robot, job: Job, base: Base): Description {
   const arm = armOf(robot);
-  const giveUp: Action = { kind: "cancel", label: label.giveUp };
-  const goOn: Action = { kind: "resume", label: label.goOn };
+  const giveUp: Action = { kind: "cancel", label: words.action.giveUp };
+  const goOn: Action = { kind: "resume", label: words.action.goOn };
   const needs = job.needs_person ?? null;
   if (needs === null) {
     const scene: Scene = { arm, mark: "none" };
-    return { ...base, ...say.paused, tone: "ask", scene, action: goOn, others: [giveUp] };
+    return { ...base, ...words.state.paused, tone: "ask", scene, action: goOn, others: [giveUp] };
   }
   const choices = needs.choices.map((choice) => (choice === "resume" ? goOn : giveUp));
   const [action = null, ...others] = choices;
   return {
     ...base,
-    headline: say.needsPerson,
-    detail: needs.sentence,
+    headline: words.state.needsPerson,
+    ...askedOf(needs),
     tone: "ask",
     scene: { arm, mark: "question" },
     action,
@@ -203,9 +196,9 @@ function actionOf(job: Job): Action | null {
       return cancel();
     case "plugged":
       // There is no charge to finish yet; a cancelled job unplugs as well.
-      return { kind: "cancel", label: label.finish };
+      return { kind: "cancel", label: words.action.finish };
     case "charging":
-      return { kind: "finish", label: label.finish };
+      return { kind: "finish", label: words.action.finish };
     case "releasing":
     case "withdrawing":
     case "parking":
@@ -216,17 +209,23 @@ function actionOf(job: Job): Action | null {
 function describeQuestion(robot: Robot, base: Base): Description | null {
   if (robot.plug !== "unknown") return null;
   const scene: Scene = { arm: "near", mark: "question" };
-  const action: Action = { kind: "confirm_plug", label: label.plugOut };
-  return { ...base, ...say.askPlug, tone: "ask", scene, action };
+  const action: Action = { kind: "confirm_plug", label: words.action.plugOut };
+  return { ...base, ...words.state.askPlug, tone: "ask", scene, action };
 }
 
 /** Motion without a job: homing, or somebody at the controls. */
 function describeOwnMotion(robot: Robot, base: Base): Description | null {
   const scene: Scene = { arm: armOf(robot), mark: "sync" };
-  if (robot.mode === "homing") return { ...base, ...say.homing, tone: "busy", scene, action: null };
+  if (robot.mode === "homing") return { ...base, ...words.state.homing, tone: "busy", scene, action: null };
   if (robot.mode !== "moving") return null;
-  const detail = robot.control === null ? say.moving.detail : say.movingBy(robot.control.name);
-  return { ...base, ...say.moving, detail, tone: "busy", scene, action: null };
+  const { control } = robot;
+  const detail =
+    control === null
+      ? words.state.moving.detail
+      : control.kind === "job"
+        ? words.state.movingByJob
+        : words.state.movingBy(control.name);
+  return { ...base, ...words.state.moving, detail, tone: "busy", scene, action: null };
 }
 
 function describeFailure(
@@ -236,47 +235,49 @@ function describeFailure(
   base: Base,
 ): Description | null {
   if (job?.state !== "failed" || job.id === dismissedJobId) return null;
+  const error = job.error === null ? null : told(job.error);
+  const detail = error === null ? words.state.failedUnnamed : error.detail || `${error.title}.`;
   const headline = {
-    charge: say.chargeFailed,
-    plug_in: say.plugInFailed,
-    unplug: say.unplugFailed,
+    charge: words.state.chargeFailed,
+    plug_in: words.state.plugInFailed,
+    unplug: words.state.unplugFailed,
   }[job.type];
   return {
     ...base,
-    ...withPlugNote({ headline, detail: job.error?.detail ?? say.failedUnnamed }, robot),
-    remedy: job.error?.remedy ?? "",
+    ...withPlugNote({ headline, detail }, robot),
+    remedy: error?.remedy ?? "",
     tone: "problem",
     scene: { arm: armOf(robot), mark: "alert" },
     action:
       robot.plug === "inserted"
-        ? { kind: "unplug", label: label.unplug }
-        : { kind: "charge", label: job.type === "unplug" ? label.charge : label.again },
+        ? { kind: "unplug", label: words.action.unplug }
+        : { kind: "charge", label: job.type === "unplug" ? words.action.charge : words.action.again },
   };
 }
 
 function describeRest({ robot, job, station }: Live, base: Base): Description {
   if (robot.plug === "inserted") {
     const charges = station.online && station.power_w > 0;
-    const sentence = charges ? say.charging : say.pluggedIn;
+    const sentence = charges ? words.state.charging : words.state.pluggedIn;
     const scene: Scene = { arm: "in", mark: charges ? "bolt" : "none" };
-    const action: Action = { kind: "unplug", label: label.unplug };
+    const action: Action = { kind: "unplug", label: words.action.unplug };
     return { ...base, ...sentence, tone: "good", scene, action };
   }
   const scene: Scene = { arm: armOf(robot), mark: "none" };
-  const action: Action = { kind: "charge", label: label.charge };
-  const others: Action[] = [{ kind: "plan", label: label.plan }];
+  const action: Action = { kind: "charge", label: words.action.charge };
+  const others: Action[] = [{ kind: "plan", label: words.action.plan }];
   return { ...base, ...restSentence(robot, job), tone: "calm", scene, action, others };
 }
 
 function restSentence(robot: Robot, job: Job | null): Sentence {
-  if (robot.mode === "off") return say.off;
-  if (robot.mode === "not_homed") return say.notHomed;
+  if (robot.mode === "off") return words.state.off;
+  if (robot.mode === "not_homed") return words.state.notHomed;
   if (job?.type === "charge" && job.state === "succeeded" && isRecent(robot, job)) {
     const energy_wh = job.result.energy_wh ?? null;
-    if (energy_wh === null || energy_wh <= 0) return say.readyAfterCharge;
-    return { ...say.readyAfterCharge, detail: say.charged(formatEnergy(energy_wh)) };
+    if (energy_wh === null || energy_wh <= 0) return words.state.readyAfterCharge;
+    return { ...words.state.readyAfterCharge, detail: words.state.charged(formatEnergy(energy_wh)) };
   }
-  return robot.plug === "free" ? say.free : say.ready;
+  return robot.plug === "free" ? words.state.free : words.state.ready;
 }
 
 /** By the server's clock alone. */
@@ -284,50 +285,32 @@ function isRecent(robot: Robot, job: Job): boolean {
   return Date.parse(robot.updated_at) - Date.parse(job.updated_at) < NEWS_MS;
 }
 
+function pause(): Action {
+  return { kind: "pause", label: words.action.pause };
+}
+
 function cancel(): Action {
-  return { kind: "cancel", label: label.cancel };
+  return { kind: "cancel", label: words.action.cancel };
 }
 
-/** Why the robot stands still, in the server's words. */
+/** Why the robot stands still. */
 function faultSentence({ fault }: Robot): Sentence | null {
-  return fault === null ? null : { headline: fault.title, detail: fault.detail };
+  if (fault === null) return null;
+  const { title, detail } = told(fault);
+  return { headline: title, detail };
 }
 
-function withPlugNote(sentence: Sentence, robot: Robot): Sentence {
-  if (robot.plug !== "inserted") return sentence;
-  return { headline: sentence.headline, detail: `${say.stillPlugged} ${sentence.detail}` };
+function remedyOf({ fault }: Robot): string | null {
+  return fault === null ? null : told(fault).remedy;
 }
 
-function armOf(robot: Robot): Scene["arm"] {
-  switch (robot.plug) {
-    case "parked":
-      return "parked";
-    case "free":
-      return "out";
-    case "inserted":
-      return "in";
-    case "unknown":
-      return "near";
-  }
+/** What a person is asked: in the server's one sentence, or translated in two. */
+function askedOf({ code, sentence }: NeedsPerson): Pick<Description, "detail" | "remedy"> {
+  const { title, detail, remedy } = told({ code, title: "", detail: sentence, remedy: "" });
+  return { detail: title === "" ? detail : `${title}.`, remedy };
 }
 
-function sceneOf(job: Job, robot: Robot): Scene {
-  switch (job.phase) {
-    case "preflight":
-      return { arm: armOf(robot), mark: "sync" };
-    case "locating":
-      return { arm: armOf(robot), mark: "search" };
-    case "aligning":
-      return { arm: "near", mark: "none" };
-    case "inserting":
-    case "plugged":
-    case "releasing":
-      return { arm: "in", mark: "none" };
-    case "charging":
-      return { arm: "in", mark: "bolt" };
-    case "withdrawing":
-      return { arm: "out", mark: "none" };
-    case "parking":
-      return { arm: "parked", mark: "none" };
-  }
+function withPlugNote({ headline, detail }: Sentence, robot: Robot): Sentence {
+  if (robot.plug !== "inserted") return { headline, detail };
+  return { headline, detail: `${words.state.stillPlugged} ${detail}`.trimEnd() };
 }

@@ -1,11 +1,15 @@
 import { QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
-import { Views } from "@/parts/views";
+import { CameraPanel } from "./camera/panel";
+import { ConfigPanel } from "./config/panel";
+import { ConsolePanel } from "./console/panel";
+import { DiagnosticsPanel } from "./diagnostics/panel";
 import { JogPad } from "./jog/pad";
 import { Plots } from "./readings/plots";
 import { Values } from "./readings/values";
 import { RobotBox } from "./robot";
 import { Stops } from "./stop";
+import { TargetPanel } from "./target/panel";
 import { say } from "./words";
 
 /** The technician's page: everything about the robot at one glance, stop always in reach. */
@@ -21,10 +25,14 @@ export function Technician() {
         </div>
         <div class="column">
           <JogPad />
-          <Views />
+          <TargetPanel />
+          <ConsolePanel />
         </div>
         <div class="column">
           <Plots />
+          <CameraPanel />
+          <ConfigPanel />
+          <DiagnosticsPanel />
         </div>
       </main>
       <Stops />

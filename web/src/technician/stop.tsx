@@ -4,6 +4,7 @@ import type { StopKind } from "@/api/wire";
 import { description } from "@/robot/view";
 import { words } from "@/words";
 import { deadMan } from "./jog/jog";
+import { grip } from "./target/target";
 import { say } from "./words";
 
 /** Both stops, always in sight. While anything moves, the space bar and Escape press the first. */
@@ -11,7 +12,8 @@ export function Stops() {
   useEffect(() => {
     const onKey = (event: KeyboardEvent): void => {
       if (event.repeat || (event.key !== " " && event.key !== "Escape")) return;
-      if (!description.peek().stoppable && deadMan.held.peek() === null) return;
+      const held = deadMan.held.peek() ?? grip.held.peek();
+      if (!description.peek().stoppable && held === null) return;
       event.preventDefault();
       event.stopPropagation();
       stopNow("stop");
@@ -34,6 +36,7 @@ export function StopButtons() {
 
 function stopNow(kind: StopKind): void {
   deadMan.release();
+  grip.release();
   pressStop(kind);
 }
 

@@ -89,7 +89,7 @@ async function moveBy({ axis, direction }: Way, distance_mm: number): Promise<vo
   }
 }
 
-function troubleOf(problem: Problem | null): Trouble {
+export function troubleOf(problem: Problem | null): Trouble {
   if (problem === null) return say.jog.noAnswer;
   const { code, title, detail, remedy } = problem;
   return { code, title, detail, remedy };

@@ -1,0 +1,151 @@
+"""Examples of calibrations, for the OpenAPI document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Json = Any
+
+CALIBRATION_ID = "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2"
+
+_ROBOT_VALUES: dict[str, Json] = {
+    "kind": "robot",
+    "mechanism": {
+        "left_leg_mm": 533.21,
+        "right_leg_mm": 530.87,
+        "left_foot_x_mm": 55.0,
+        "left_foot_y_mm": 0.0,
+        "right_foot_x_mm": 1246.42,
+        "right_foot_y_mm": -1.13,
+        "left_rail_rad": 0.0021,
+        "right_rail_rad": -0.0021,
+        "left_scale": 1.0024,
+        "right_scale": 0.9981,
+    },
+    "camera_rotation_rad": [0.013, -0.021, 3.127],
+}
+_CAMERA_VALUES: dict[str, Json] = {
+    "kind": "camera",
+    "camera": {
+        "width": 1640,
+        "height": 1232,
+        "fx": 1296.4,
+        "fy": 1296.1,
+        "cx": 818.2,
+        "cy": 617.9,
+        "k1": 0.021,
+        "k2": -0.034,
+        "p1": 0.0,
+        "p2": 0.0,
+        "k3": 0.0,
+    },
+}
+_CALIBRATION: dict[str, Json] = {
+    "id": CALIBRATION_ID,
+    "kind": "robot",
+    "version": 3,
+    "values": _ROBOT_VALUES,
+    "grade": "good",
+    "remarks": [],
+    "error": 0.034,
+    "error_in_use": 2.41,
+    "made_at": "2026-03-01T18:04:05.120Z",
+    "made_by": "Anna",
+    "source": "25 looks at the label of Renault Zoe",
+    "in_force": True,
+}
+_EVIDENCE: dict[str, Json] = {
+    "looks": [
+        {
+            "rho1_mm": 212.4,
+            "rho2_mm": 180.9,
+            "label_mm": [12.1, -3.4, 291.0],
+            "covariance_mm2": [0.0001, 0, 0, 0, 0.0001, 0, 0, 0, 0.0025],
+            "residual_mm": [0.011, -0.004, 0.052],
+            "weight": 1.0,
+        }
+    ],
+    "sigma": {"left_leg_mm": 0.21},
+    "unseen": [],
+    "duration_s": 96.4,
+}
+
+_ROUTINE: dict[str, Json] = {
+    "kind": "robot",
+    "state": "finished",
+    "doing": "The calibration is done. Nobody uses it yet.",
+    "done": 25,
+    "total": 25,
+    "looks": [{"x_mm": 642.0, "y_mm": 331.5, "seen": True}],
+    "begun_by": "Anna",
+    "begun_at": "2026-03-01T18:02:11.400Z",
+    "calibration_id": CALIBRATION_ID,
+    "check_id": None,
+    "problem": None,
+}
+
+CALIBRATION_MODELS: dict[str, Json] = {
+    "AccuracyCheckPage": {
+        "items": [
+            {
+                "id": "01957a44-5b10-7c1e-8a37-92d6f0b41c58",
+                "made_at": "2026-03-01T18:09:40.000Z",
+                "made_by": "Anna",
+                "calibration_id": CALIBRATION_ID,
+                "approaches": 3,
+                "places": [
+                    {
+                        "x_mm": 650.0,
+                        "y_mm": 335.0,
+                        "accuracy_mm": 0.031,
+                        "repeatability_mm": 0.094,
+                        "direction_variation_mm": 0.058,
+                        "attained_mm": [[649.97, 335.02], [650.03, 335.04]],
+                    }
+                ],
+                "left_out": 0,
+                "accuracy_mm": 0.031,
+                "repeatability_mm": 0.094,
+                "direction_variation_mm": 0.058,
+                "duration_s": 141.2,
+            }
+        ],
+        "next_cursor": None,
+    },
+    "Activation": {"accept_worse": False},
+    "Calibration": _CALIBRATION,
+    "CalibrationDetail": {**_CALIBRATION, "evidence": _EVIDENCE},
+    "CalibrationEntry": {"values": _CAMERA_VALUES, "source": "camera-0003.toml"},
+    "CalibrationPage": {"items": [_CALIBRATION], "next_cursor": None},
+    "CalibrationNow": {
+        "in_force": {"camera": None, "robot": _CALIBRATION, "sockets": []},
+        "routine": _ROUTINE,
+    },
+    "RollBack": {"kind": "robot"},
+    "Routine": _ROUTINE,
+}
+"""By the name of the schema."""
+
+CALIBRATION_REQUESTS: dict[str, dict[str, Json]] = {
+    "beginCalibration": {
+        "robot": {
+            "summary": "Measure the robot; both belts were measured with a rule",
+            "value": {
+                "kind": "robot",
+                "vehicle_id": "zoe",
+                "left_belt": {"commanded_mm": 300, "measured_mm": 300.7},
+                "right_belt": {"commanded_mm": 300, "measured_mm": 299.4},
+                "label_sigma_mm": 0.1,
+            },
+        },
+        "check": {
+            "summary": "Check the robot at nine places",
+            "value": {"kind": "check", "vehicle_id": "zoe", "approaches": 3},
+        },
+        "socket": {
+            "summary": "Teach the socket that the plug is in",
+            "value": {"kind": "socket", "vehicle_id": "zoe"},
+        },
+    },
+}
+"""Operations with more than one example, by operation."""

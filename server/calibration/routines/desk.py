@@ -1,0 +1,251 @@
+"""Runs one calibration routine at a time, and shows how far it is."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+from datetime import datetime
+from typing import Literal
+
+from server.calibration.robot.errors import RobotCalibrationError
+from server.calibration.routines.check_record import check_of
+from server.calibration.routines.check_routine import CheckResult, CheckRoutine
+from server.calibration.routines.errors import (
+    AxesSwappedError,
+    LabelMovedError,
+    MotorReversedError,
+    NoRoutineError,
+    RoutineRunningError,
+)
+from server.calibration.routines.progress import Progress
+from server.calibration.routines.robot_routine import RobotRoutine
+from server.calibration.routines.socket_routine import SocketRoutine
+from server.calibration.routines.stand import Stand
+from server.calibration.versions.service import HOLDER, Calibrations, NewCalibration
+from server.config.settings import Settings
+from server.control.lease import Lease
+from server.control.supervisor import Supervisor
+from server.errors import InternalError, PlugPilotError
+from server.jobs.errors import UnknownVehicleError, VehicleChoiceError
+from server.localisation.eye import Eye
+from server.schema.problem import problem_from
+from server.schema.routines import (
+    CheckRoutineRequest,
+    Routine,
+    RoutineRequest,
+    SocketRoutineRequest,
+)
+from server.schema.vehicles import Vehicle
+from server.storage.accuracy_checks import AccuracyCheckStore
+from server.storage.vehicles import VehicleStore
+from server.timing import Calendar
+
+_log = logging.getLogger(__name__)
+
+AnyRoutine = RobotRoutine | SocketRoutine | CheckRoutine
+
+State = Literal["running", "interrupted", "finished", "failed", "cancelled"]
+
+_FINAL = (LabelMovedError, AxesSwappedError, MotorReversedError, RobotCalibrationError)
+"""What cannot be mended by going on; after anything else a routine can be resumed."""
+
+
+class RoutineDesk:
+    """The one routine.
+
+    Args:
+        supervisor: Owner of the robot.
+        eye: Camera and locator.
+        vehicles: Whose labels there are.
+        calibrations: Keeps what comes of it.
+        settings: The whole configuration.
+        calendar: Dates.
+        checks: Keeps nine-point checks.
+    """
+
+    def __init__(
+        self,
+        *,
+        supervisor: Supervisor,
+        eye: Eye,
+        vehicles: VehicleStore,
+        calibrations: Calibrations,
+        settings: Settings,
+        calendar: Calendar,
+        checks: AccuracyCheckStore,
+    ) -> None:
+        self._supervisor = supervisor
+        self._eye = eye
+        self._vehicles = vehicles
+        self._calibrations = calibrations
+        self._settings = settings
+        self._calendar = calendar
+        self._listeners: list[Callable[[], None]] = []
+        self._routine: AnyRoutine | None = None
+        self._progress = Progress(self._changed)
+        self._state: State = "cancelled"
+        self._begun_at: datetime = calendar.now()
+        self._problem: PlugPilotError | None = None
+        self._kept: str | None = None
+        self._check: str | None = None
+        self._checks = checks
+        self._task: asyncio.Task[None] | None = None
+
+    @property
+    def shown(self) -> Routine | None:
+        """The routine under way, or the last one; None before there was any."""
+        if self._routine is None:
+            return None
+        progress = self._progress
+        return Routine(
+            kind=self._routine.request.kind,
+            state=self._state,
+            doing=progress.doing,
+            done=progress.done,
+            total=progress.total,
+            looks=list(progress.looks),
+            begun_by=self._routine.by,
+            begun_at=self._begun_at,
+            calibration_id=self._kept,
+            check_id=self._check,
+            problem=problem_from(self._problem) if self._problem else None,
+        )
+
+    def listen(self, listener: Callable[[], None]) -> None:
+        """Call ``listener`` whenever there is something new."""
+        self._listeners.append(listener)
+
+    async def begin(self, request: RoutineRequest, by: str) -> Routine:
+        """Begin a routine; what an interrupted one has collected is given up.
+
+        Raises:
+            RoutineRunningError: one is under way.
+            UnknownVehicleError, VehicleChoiceError: it is not clear whose label to look at.
+            ControlBusyError: a job, or somebody else, uses the robot.
+        """
+        self._refuse_second()
+        vehicle = await self._choose_vehicle(request)
+        self._refuse_second()
+        lease = self._supervisor.acquire("calibration", HOLDER)
+        self._routine = _routine(request, by, vehicle)
+        self._progress = Progress(self._changed)
+        self._begun_at = self._calendar.now()
+        self._kept = self._check = None
+        return self._go_on(self._routine, lease)
+
+    async def resume(self) -> Routine:
+        """Go on where the routine was interrupted.
+
+        Raises:
+            NoRoutineError: none was.
+            ControlBusyError: a job, or somebody else, uses the robot.
+        """
+        if self._routine is None or self._state != "interrupted":
+            raise NoRoutineError("No calibration was interrupted.")
+        lease = self._supervisor.acquire("calibration", HOLDER)
+        return self._go_on(self._routine, lease)
+
+    async def cancel(self) -> Routine:
+        """End the routine; the robot comes to rest, and nothing is kept.
+
+        Raises:
+            NoRoutineError: none is under way.
+        """
+        if self._routine is None or self._state not in {"running", "interrupted"}:
+            raise NoRoutineError("No calibration is under way.")
+        await self._end_task()
+        if self._state in {"running", "interrupted"}:  # it may just have ended
+            self._state = "cancelled"
+        self._changed()
+        shown = self.shown
+        assert shown is not None  # noqa: S101 - there is a routine
+        return shown
+
+    async def wait(self) -> None:
+        """Wait until the routine has ended, or was interrupted."""
+        if self._task is not None:
+            await asyncio.wait({self._task})
+
+    async def close(self) -> None:
+        """Stop whatever is under way."""
+        await self._end_task()
+
+    def _go_on(self, routine: AnyRoutine, lease: Lease) -> Routine:
+        self._state, self._problem = "running", None
+        self._task = asyncio.create_task(self._run(routine, lease), name="calibration")
+        # Not in the task: one that is cancelled before its first step never runs.
+        self._task.add_done_callback(lambda _: self._supervisor.give_back(lease))
+        self._changed()
+        shown = self.shown
+        assert shown is not None  # noqa: S101 - there is a routine
+        return shown
+
+    async def _run(self, routine: AnyRoutine, lease: Lease) -> None:
+        stand = Stand(
+            supervisor=self._supervisor,
+            lease=lease,
+            eye=self._eye,
+            vehicle=routine.vehicle,
+            settings=self._settings,
+            as_taught=self._calibrations.as_taught,
+        )
+        try:
+            found = await routine.run(stand, self._progress)
+            await self._keep(found)
+        except PlugPilotError as error:
+            _log.warning("the calibration stands still: %s", error.detail)
+            self._problem = error
+            self._state = "failed" if isinstance(error, _FINAL) else "interrupted"
+        except Exception:  # noqa: BLE001 - it is logged, and shown as failed
+            _log.exception("the calibration broke down")
+            self._problem = InternalError("The calibration broke down. The log says why.")
+            self._state = "failed"
+        else:
+            self._state = "finished"
+        self._changed()
+
+    async def _keep(self, found: NewCalibration | CheckResult) -> None:
+        if isinstance(found, CheckResult):
+            check = check_of(found, self._calendar.now(), self._calibrations.robot_in_force)
+            await self._checks.add(check)
+            self._check = check.id
+            self._progress.doing = "The check is done."
+        else:
+            self._kept = (await self._calibrations.keep(found)).id
+            self._progress.doing = "The calibration is done. Nobody uses it yet."
+
+    async def _end_task(self) -> None:
+        if self._task is not None:
+            self._task.cancel()
+            await asyncio.wait({self._task})
+
+    async def _choose_vehicle(self, request: RoutineRequest) -> Vehicle:
+        known = await self._vehicles.all()
+        if request.vehicle_id is not None:
+            for vehicle in known:
+                if vehicle.id == request.vehicle_id:
+                    return vehicle
+            raise UnknownVehicleError(f"There is no vehicle {request.vehicle_id!r}.")
+        if not known:
+            raise UnknownVehicleError("No vehicle has been added yet.")
+        if len(known) > 1:
+            names = ", ".join(vehicle.id for vehicle in known)
+            raise VehicleChoiceError(f"Several vehicles are known: {names}.")
+        return known[0]
+
+    def _refuse_second(self) -> None:
+        if self._state == "running":
+            raise RoutineRunningError("One calibration at a time.")
+
+    def _changed(self) -> None:
+        for listener in self._listeners:
+            listener()
+
+
+def _routine(request: RoutineRequest, by: str, vehicle: Vehicle) -> AnyRoutine:
+    if isinstance(request, CheckRoutineRequest):
+        return CheckRoutine(request, by, vehicle)
+    if isinstance(request, SocketRoutineRequest):
+        return SocketRoutine(request, by, vehicle)
+    return RobotRoutine(request, by, vehicle)

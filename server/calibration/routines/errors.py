@@ -1,0 +1,79 @@
+"""Errors of calibration routines.
+
+RoutineError
+├── RoutineRunningError      one is under way already
+├── NoRoutineError           there is none to go on with, or to end
+├── LabelMovedError          the label is not where it was when the routine began
+├── LabelLostError           too few places show the label
+├── PlugNotInError           the socket cannot be taught without the plug in it
+├── AxesSwappedError         the carriages answer for each other
+└── MotorReversedError       a carriage runs the wrong way
+"""
+
+from __future__ import annotations
+
+from server.errors import PlugPilotError
+
+
+class RoutineError(PlugPilotError):
+    """A calibration routine cannot go on."""
+
+    code = "calibration_routine"
+    title = "The calibration cannot go on"
+    status = 409
+
+
+class RoutineRunningError(RoutineError):
+    """One is under way already."""
+
+    code = "calibration_running"
+    title = "A calibration is under way"
+    remedy = "Wait until it has ended, or end it."
+
+
+class NoRoutineError(RoutineError):
+    """There is none to go on with, or to end."""
+
+    code = "calibration_none"
+    title = "No calibration is under way"
+    remedy = "Begin one."
+
+
+class LabelMovedError(RoutineError):
+    """The label is not where it was when the routine began."""
+
+    code = "calibration_label_moved"
+    title = "The label has moved during the calibration"
+    remedy = "Fix the label and the car so that nothing moves, then begin again."
+
+
+class LabelLostError(RoutineError):
+    """Too few places show the label."""
+
+    code = "calibration_label_lost"
+    title = "The label was seen too seldom"
+    remedy = "Look for glare, dirt and things in front of the label, then go on."
+
+
+class PlugNotInError(RoutineError):
+    """The socket cannot be taught without the plug in it."""
+
+    code = "calibration_plug_not_in"
+    title = "The plug is not in the socket"
+    remedy = "Jog the plug all the way into the socket first."
+
+
+class AxesSwappedError(RoutineError):
+    """The carriages answer for each other."""
+
+    code = "calibration_axes_swapped"
+    title = "The two carriages are swapped"
+    remedy = "Swap the plugs of the two carriage motors at the board, home the robot, begin again."
+
+
+class MotorReversedError(RoutineError):
+    """A carriage runs the wrong way."""
+
+    code = "calibration_motor_reversed"
+    title = "A carriage runs the wrong way"
+    remedy = "Turn the motor's direction round in the board's settings, home, begin again."

@@ -1,0 +1,200 @@
+"""The robot as it was built, from 25 looks at one label.
+
+The first look has the label in the middle of the picture. Two more, each with one carriage moved
+by itself, show that the motors are connected as they should be. Twenty-one follow from the places
+that tell most, and the last is the first one again: the label must be where it was.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from server.calibration.axes.estimates import belt_scale
+from server.calibration.robot.known_before import KnownBefore
+from server.calibration.robot.looks import LabelLook
+from server.calibration.robot.poses import choose_places, in_travelling_order
+from server.calibration.robot.unknowns import Unknowns
+from server.calibration.routines.errors import LabelLostError, LabelMovedError
+from server.calibration.routines.places import places_with_label
+from server.calibration.routines.progress import Progress
+from server.calibration.routines.robot_result import result_of
+from server.calibration.routines.stand import Stand
+from server.calibration.routines.wiring import check_wiring
+from server.calibration.versions.service import NewCalibration
+from server.control.errors import ActuatorOverloadError, MotionOutOfReachError
+from server.schema.routines import RobotRoutineRequest
+from server.schema.vehicles import Vehicle
+from twin.as_built import PlanarAsBuilt
+from twin.joints import JointPosition
+
+Array = NDArray[np.float64]
+
+WIRING_STEP_MM = 12.0
+CHOSEN = 21
+"""With the first, two for the wiring, and the first again: 25 poses."""
+FEWEST_LOOKS = 16
+MOVED_MM = 0.25
+"""A label that is off by more than this has moved: the robot comes back to 0.1 mm at worst."""
+
+
+@dataclass(slots=True, eq=False)
+class _First:
+    """The look with the label in the middle of the picture."""
+
+    joints: JointPosition
+    platform_mm: Array
+    look: LabelLook
+
+
+@dataclass(slots=True, eq=False)
+class RobotRoutine:
+    """One run; after an interruption ``run`` goes on with the places that are left.
+
+    Attributes:
+        request: What was asked for.
+        by: Who asked.
+        vehicle: Whose label.
+    """
+
+    request: RobotRoutineRequest
+    by: str
+    vehicle: Vehicle
+    _first: _First | None = None
+    _looks: list[LabelLook] = field(default_factory=list)
+    _left: list[JointPosition] | None = None
+    _spent_s: float = 0.0
+
+    async def run(self, stand: Stand, progress: Progress) -> NewCalibration:
+        """Collect what is missing, solve and judge.
+
+        Raises:
+            LabelMovedError, LabelLostError, AxesSwappedError, MotorReversedError: what was found.
+            RobotCalibrationError: no robot like this could have seen the label so.
+            ControlError, CameraDownError: the robot or the camera gave up.
+        """
+        loop = asyncio.get_running_loop()
+        began_s = loop.time()
+        try:
+            progress.say("Making the robot ready.")
+            await stand.make_ready()
+            await self._collect(stand, progress)
+        finally:
+            self._spent_s += loop.time() - began_s
+        progress.say("Working out how the robot is built.")
+        return await asyncio.to_thread(
+            result_of,
+            self._looks,
+            stand,
+            self._known(),
+            made_by=self.by,
+            duration_s=self._spent_s,
+        )
+
+    async def _collect(self, stand: Stand, progress: Progress) -> None:
+        if self._left is None:
+            self._left = await self._begin(stand, progress)
+        else:
+            await self._require_unmoved(stand, progress)
+        progress.say("Looking at the label from many places.")
+        while self._left:
+            try:
+                await stand.go_joints(self._left[0])
+                look = await stand.look()
+            except (MotionOutOfReachError, ActuatorOverloadError):
+                look = None
+            self._left.pop(0)
+            self._take(stand, progress, look)
+        await self._require_unmoved(stand, progress)
+        if len(self._looks) < FEWEST_LOOKS:
+            raise LabelLostError(
+                f"The label was seen from {len(self._looks)} of {progress.done} places; "
+                f"{FEWEST_LOOKS} are needed.",
+                looks=len(self._looks),
+            )
+
+    async def _begin(self, stand: Stand, progress: Progress) -> list[JointPosition]:
+        progress.say("Looking for the label.")
+        seen = await stand.find_label()
+        joints = stand.supervisor.telemetry.require().commanded.position
+        self._first = _First(joints, stand.platform_mm, seen)
+        self._looks.clear()
+        self._take(stand, progress, seen)
+        progress.say("Checking that each motor moves its own carriage.")
+        await self._check_wiring(stand, progress, self._first)
+        left = await asyncio.to_thread(self._choose, stand, self._first)
+        progress.total = progress.done + len(left) + 1
+        return left
+
+    async def _check_wiring(self, stand: Stand, progress: Progress, first: _First) -> None:
+        steps = WIRING_STEP_MM * np.eye(2)
+        moved = []
+        for step in steps:
+            await stand.go_joints(
+                first.joints._replace(
+                    rho1_mm=first.joints.rho1_mm + step[0], rho2_mm=first.joints.rho2_mm + step[1]
+                )
+            )
+            look = await stand.look()
+            if look is None:
+                raise LabelLostError(
+                    f"After a step of {WIRING_STEP_MM:g} mm the label was out of the picture."
+                )
+            self._take(stand, progress, look)
+            moved.append(stand.R_base_camera @ (first.look.label_mm - look.label_mm))
+        drawn = PlanarAsBuilt.as_drawn(stand.supervisor.geometry)
+        check_wiring(drawn, first.look.rho_mm, steps, np.stack(moved)[:, :2])
+
+    def _choose(self, stand: Stand, first: _First) -> list[JointPosition]:
+        geometry = stand.supervisor.geometry
+        rotation = stand.R_base_camera
+        candidates = places_with_label(
+            geometry, stand.eye.optics, rotation, centre_mm=first.platform_mm,
+            seen=first.look, label_size_mm=self.vehicle.label_size_mm,
+        )  # fmt: skip
+        guess = Unknowns.guess(geometry, rotation, first.look.rho_mm, first.look.label_mm)
+        chosen = candidates[choose_places(candidates, guess, self._known(), CHOSEN)]
+        here = np.array([first.joints.rho1_mm, first.joints.rho2_mm])
+        ordered = chosen[in_travelling_order(chosen, here)]
+        return [JointPosition(a, b, geometry.rho3.min_mm) for a, b in ordered.tolist()]
+
+    async def _require_unmoved(self, stand: Stand, progress: Progress) -> None:
+        if self._first is None:
+            raise AssertionError("the label was compared before it was seen")
+        progress.say("Looking whether the label is where it was.")
+        await stand.go_joints(self._first.joints)
+        look = await stand.look()
+        self._take(stand, progress, look)
+        if look is None:
+            raise LabelLostError("From the first place the label is not to be seen any more.")
+        moved_mm = float(np.linalg.norm((look.label_mm - self._first.look.label_mm)[:2]))
+        if moved_mm > MOVED_MM:
+            raise LabelMovedError(
+                f"Seen from the first place again, it is {moved_mm:.1f} mm off. Nothing was kept.",
+                moved_mm=round(moved_mm, 3),
+            )
+
+    def _take(self, stand: Stand, progress: Progress, look: LabelLook | None) -> None:
+        x_mm, y_mm = stand.platform_mm.tolist()
+        if look is not None:
+            self._looks.append(look)
+        progress.looked(x_mm, y_mm, seen=look is not None)
+
+    def _known(self) -> KnownBefore:
+        """What the technician has measured, in place of what is usual."""
+        request = self.request
+        known: dict[str, float] = {
+            "label_ratio_sigma": request.label_sigma_mm / self.vehicle.label_size_mm
+        }
+        sigmas = []
+        for name, belt in (("left_scale", request.left_belt), ("right_scale", request.right_belt)):
+            if belt is not None:
+                measured = belt_scale(belt.commanded_mm, belt.measured_mm, belt.reading_sigma_mm)
+                known[name] = measured.value
+                sigmas.append(measured.sigma)
+        if len(sigmas) == len(("left", "right")):
+            known["scale_sigma"] = max(sigmas)
+        return KnownBefore.model_validate(known)

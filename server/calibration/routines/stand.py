@@ -1,0 +1,179 @@
+"""The robot before a label that stands still: go somewhere, come to rest, look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.robot import RobotState
+from server.calibration.robot.looks import LabelLook
+from server.calibration.routines.errors import LabelLostError
+from server.config.settings import Settings
+from server.control.errors import MotionOutOfReachError, RobotOfflineError
+from server.control.lease import Lease
+from server.control.supervisor import Supervisor
+from server.localisation.errors import ImplausiblePlaceError
+from server.localisation.eye import Eye
+from server.localisation.looks import LookPlanner
+from server.schema.vehicles import Vehicle
+from server.vision import AmbiguousLabelError, LabelPose, PoseRejectedError
+from twin.joints import JointPosition
+from twin.kinematics import KinematicsError, PlatformPosition, alpha
+
+Array = NDArray[np.float64]
+
+FRAMES = 3
+TAKE_UP_MM = 1.5
+"""Every place is approached from here below it on both rails, so that play is always the same."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stand:
+    """What a routine has at hand.
+
+    Attributes:
+        supervisor: Owner of the robot.
+        lease: Proof of control.
+        eye: Camera and locator.
+        vehicle: Whose label it looks at.
+        settings: The whole configuration.
+        as_taught: Puts the socket of a vehicle where it was taught.
+    """
+
+    supervisor: Supervisor
+    lease: Lease
+    eye: Eye
+    vehicle: Vehicle
+    settings: Settings
+    as_taught: Callable[[Vehicle], Vehicle]
+
+    async def make_ready(self) -> None:
+        """Drives on, zero known, plug drawn back.
+
+        Raises:
+            ControlError: the robot cannot be made ready, or the plug is not known to be free.
+        """
+        if not self.supervisor.telemetry.require().enabled:
+            await self.supervisor.enable(self.lease)
+        if not self.supervisor.telemetry.require().homed:
+            await self.supervisor.home(self.lease)
+        here = self.supervisor.telemetry.require().commanded.position
+        back = here._replace(rho3_mm=self.supervisor.geometry.rho3.min_mm)
+        await self.supervisor.move_joints(self.lease, back)
+
+    async def find_label(self) -> LabelLook:
+        """The label in the middle of the picture, from a place where it is.
+
+        Raises:
+            LabelLostError: it is in no picture.
+            ControlError, CameraDownError: the robot does not get there, or sees nothing at all.
+        """
+        look = await self.look()
+        if look is None:
+            look = await self._search()
+        sideways = self.R_base_camera @ (look.label_mm * np.array([1.0, 1.0, 0.0]))
+        await self.go(self.platform_mm + sideways[:2])
+        centred = await self.look()
+        if centred is None:
+            raise LabelLostError("The label was seen, but not from where it should be best seen.")
+        return centred
+
+    async def go(self, platform_mm: Array, run_up_mm: float = -TAKE_UP_MM) -> None:
+        """Move the platform to a place, always from the same side.
+
+        Args:
+            platform_mm: x and y of V, shape (2,) [mm].
+            run_up_mm: How far both carriages stand from there before the last piece of the way.
+
+        Raises:
+            ControlError: it cannot get there.
+        """
+        geometry = self.supervisor.geometry
+        x_mm, y_mm = platform_mm.tolist()
+        try:
+            rho1_mm, rho2_mm = alpha.inverse(geometry, PlatformPosition(x_mm, y_mm))
+        except KinematicsError as error:
+            raise MotionOutOfReachError(str(error)) from error
+        await self.go_joints(JointPosition(rho1_mm, rho2_mm, geometry.rho3.min_mm), run_up_mm)
+
+    async def go_joints(self, joints: JointPosition, run_up_mm: float = -TAKE_UP_MM) -> None:
+        """The same, given the joints of the drawing."""
+        before = joints._replace(
+            rho1_mm=joints.rho1_mm + run_up_mm, rho2_mm=joints.rho2_mm + run_up_mm
+        )
+        await self.supervisor.move_joints(self.lease, before)
+        await self.supervisor.move_joints(self.lease, joints)
+
+    async def look(self) -> LabelLook | None:
+        """Look at the label from here; None: it is not in the picture, or not well enough.
+
+        Raises:
+            CameraDownError: the camera does not deliver.
+        """
+        seen = await self.sight()
+        if seen is None:
+            return None
+        board = self._board_state.commanded.position
+        return LabelLook(
+            np.array([board.rho1_mm, board.rho2_mm]),
+            seen.T_camera_label[:3, 3].copy(),
+            seen.covariance[3:, 3:].copy(),
+        )
+
+    async def sight(self) -> LabelPose | None:
+        """The label's pose in the camera frame; None as in ``look``.
+
+        Raises:
+            CameraDownError: the camera does not deliver.
+        """
+        try:
+            return await self.eye.sight(self.vehicle, FRAMES)
+        except (PoseRejectedError, AmbiguousLabelError, ImplausiblePlaceError):
+            return None
+
+    @property
+    def platform_mm(self) -> Array:
+        """Where the platform is believed to stand, shape (2,) [mm]."""
+        joints = self.supervisor.telemetry.require().commanded.position
+        return np.array(alpha.forward(self.supervisor.geometry, joints.rho1_mm, joints.rho2_mm))
+
+    @property
+    def R_base_camera(self) -> Array:  # noqa: N802 - a rotation names both frames
+        """How the camera is believed to be turned, shape (3, 3)."""
+        rotation: Array = self.eye.mount.T_platform_camera[:3, :3]
+        return rotation
+
+    @property
+    def _board_state(self) -> RobotState:
+        state = self.supervisor.board_state
+        if state is None:
+            raise RobotOfflineError("The motion board does not answer.")
+        return state
+
+    async def _search(self) -> LabelLook:
+        """Look from where a label may be seen, one place after the other."""
+        planner = LookPlanner(
+            self.supervisor.geometry,
+            self.eye.mount,
+            self.eye.optics,
+            self.vehicle,
+            insertion_depth_mm=self.settings.insertion.depth_mm,
+            approach_mm=self.settings.insertion.pre_insertion_distance_mm,
+        )
+        x_mm, y_mm = self.platform_mm.tolist()
+        places = 0
+        for place in planner.looks(x_mm, y_mm, self.supervisor.geometry.rho3.min_mm):
+            await self.go(np.array([place.x_mm, place.y_mm]))
+            places += 1
+            look = await self.look()
+            if look is not None:
+                return look
+        refusal = self.eye.refusal
+        raise LabelLostError(
+            f"The label of {self.vehicle.name} is in none of {places} pictures."
+            + (f" {refusal.detail}" if refusal is not None else ""),
+            looks=places,
+        )

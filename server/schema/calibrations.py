@@ -1,0 +1,156 @@
+"""Calibrations as the API shows them, and the words for them inside."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from drivers.camera.model import CameraModel
+from server.calibration.grade import Grade
+from server.schema.base import Timestamp, VehicleId, Wire
+from server.schema.vehicles import SocketOffset
+from twin.as_built import PlanarAsBuilt
+
+Radians = Annotated[float, Field(ge=-6.3, le=6.3, allow_inf_nan=False)]
+Millimetres = Annotated[float, Field(ge=-10_000, le=10_000, allow_inf_nan=False)]
+Vector = tuple[Millimetres, Millimetres, Millimetres]
+CovarianceTerm = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class CalibrationKind(StrEnum):
+    """What is calibrated. Of each kind, and of sockets for each vehicle, one version counts."""
+
+    CAMERA = "camera"
+    ROBOT = "robot"
+    SOCKET = "socket"
+
+    @property
+    def unit(self) -> str:
+        """Of its errors."""
+        return "px" if self is CalibrationKind.CAMERA else "mm"
+
+
+class CameraValues(Wire):
+    """The camera's own numbers."""
+
+    kind: Literal["camera"] = "camera"
+    camera: CameraModel
+
+
+class RobotValues(Wire):
+    """The mechanism, and how the camera on it is turned.
+
+    Where on the platform the camera sits, no motion of the robot tells: that stays as configured.
+    """
+
+    kind: Literal["robot"] = "robot"
+    mechanism: PlanarAsBuilt
+    camera_rotation_rad: tuple[Radians, Radians, Radians] = Field(
+        description="Rotation vector of the camera on the platform"
+    )
+
+
+class SocketValues(Wire):
+    """Where the socket of one vehicle is beside its label, as taught with this robot.
+
+    It takes the place of what the vehicle's settings say.
+    """
+
+    kind: Literal["socket"] = "socket"
+    vehicle_id: VehicleId
+    socket: SocketOffset
+
+
+CalibrationValues = Annotated[
+    CameraValues | RobotValues | SocketValues, Field(discriminator="kind")
+]
+
+
+class LookRecord(Wire):
+    """One look at the label, and how it fits to the calibration."""
+
+    rho1_mm: Millimetres = Field(description="As the board counts")
+    rho2_mm: Millimetres
+    label_mm: Vector = Field(description="In the camera frame")
+    covariance_mm2: Annotated[list[CovarianceTerm], Field(min_length=9, max_length=9)] = Field(
+        description="Of label_mm, row by row"
+    )
+    residual_mm: Vector = Field(description="Seen less predicted, camera frame")
+    weight: float = Field(ge=0, le=1, description="1; less for a look that does not fit")
+
+
+class RobotEvidence(Wire):
+    """What a calibration of the robot rests on."""
+
+    looks: list[LookRecord]
+    sigma: dict[str, float] = Field(description="Standard deviation of each unknown")
+    unseen: list[str] = Field(description="What the looks could not tell, in sentences")
+    duration_s: float = Field(ge=0, description="Robot time")
+
+
+class Calibration(Wire):
+    """One version. It never changes."""
+
+    id: str
+    kind: CalibrationKind
+    version: int = Field(ge=1, description="Counted from 1, of each kind and vehicle")
+    values: CalibrationValues
+    grade: Grade
+    remarks: list[str] = Field(description="What keeps it from being better, with what to do")
+    error: float | None = Field(
+        description="What it misses on data held back, in mm or (camera) px; null: not measured"
+    )
+    error_in_use: float | None = Field(
+        description="What the one then in force missed on the same data"
+    )
+    made_at: Timestamp
+    made_by: str
+    source: str = Field(description="Where its numbers come from, in words")
+    in_force: bool
+
+
+class CalibrationDetail(Calibration):
+    """One version with what it rests on."""
+
+    evidence: RobotEvidence | None
+
+
+class CalibrationPage(Wire):
+    """Calibrations, newest first."""
+
+    items: list[Calibration]
+    next_cursor: str | None = Field(
+        default=None, description="Pass as ?cursor= for the next page; null: end"
+    )
+
+
+class CalibrationsInForce(Wire):
+    """What counts now; null: what the configuration says."""
+
+    camera: Calibration | None = None
+    robot: Calibration | None = None
+    sockets: list[Calibration] = Field(default_factory=list, description="Of taught vehicles")
+
+
+class CalibrationEntry(Wire):
+    """Numbers from elsewhere, such as a file of `plugpilot calibrate camera`."""
+
+    values: CalibrationValues
+    source: Annotated[str, Field(min_length=1, max_length=200, examples=["camera-0003.toml"])]
+
+
+class Activation(Wire):
+    """Put a version in force."""
+
+    accept_worse: bool = Field(
+        default=False, description="Also if it is worse than the one in force, or was not measured"
+    )
+
+
+class RollBack(Wire):
+    """Go back to what was in force before."""
+
+    kind: CalibrationKind
+    vehicle_id: VehicleId | None = Field(None, description="Of a socket: whose")

@@ -1,0 +1,1 @@
+"""What only the technician's page asks for: made once, at work only while somebody looks."""

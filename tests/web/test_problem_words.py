@@ -1,0 +1,53 @@
+"""The pages translate problems by their codes: those have to be the server's."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from drivers.robot import FaultCode
+from server.access import errors as access
+from server.charge_point import errors as charge_point
+from server.control import errors as control
+from server.control.trouble import _BY_CODE as BOARD_TROUBLES
+from server.errors import InternalError, PlugPilotError
+from server.jobs import errors as jobs
+from server.localisation import errors as localisation
+from server.recordings import errors as recordings
+
+LANGUAGE = Path(__file__).resolve().parents[2] / "web" / "src" / "language"
+ROOMS = (access, charge_point, control, jobs, localisation, recordings)
+OF_PROGRAMS = {"idempotency_key_reused", "cancelled"}
+"""Nobody sees these: the page makes its keys itself, and a cancelled job is no failure."""
+
+
+def _kinds(kind: type[PlugPilotError]) -> Iterator[type[PlugPilotError]]:
+    yield kind
+    for each in kind.__subclasses__():
+        yield from _kinds(each)
+
+
+def _listed() -> set[str]:
+    text = (LANGUAGE / "problems.ts").read_text(encoding="utf-8")
+    table = re.search(r"PROBLEM_CODES = \[(.*?)\]", text, re.DOTALL)
+    assert table is not None
+    return set(re.findall(r'"(\w+)"', table[1]))
+
+
+def test_every_problem_of_the_home_page_is_translated() -> None:
+    rooms = {room.__name__ for room in ROOMS}
+    shown = {kind.code for kind in _kinds(PlugPilotError) if kind.__module__ in rooms}
+    shown |= {code.value for code in FaultCode} | set(BOARD_TROUBLES) | {InternalError.code}
+    shown -= OF_PROGRAMS | {"interruption"}
+    assert shown - _listed() == set()
+
+
+def test_nothing_is_translated_that_the_server_never_says() -> None:
+    source = "".join(
+        path.read_text(encoding="utf-8")
+        for folder in ("server", "drivers")
+        for path in (LANGUAGE.parents[2] / folder).rglob("*.py")
+    )
+    unknown = {code for code in _listed() if f'"{code}"' not in source}
+    assert unknown == set()

@@ -1,0 +1,7 @@
+import type { HomeWords } from "../types";
+import { cards } from "./cards";
+import { robot } from "./robot";
+
+export { access } from "./access";
+export { guidance } from "./guidance";
+export const home: HomeWords = { ...robot, ...cards };

@@ -1,0 +1,6 @@
+import { cards } from "./cards";
+import { robot } from "./robot";
+
+export { access } from "./access";
+export { guidance } from "./guidance";
+export const home = { ...robot, ...cards };

@@ -1,0 +1,11 @@
+/** What every language has to say: all that English says. */
+import type { access } from "./en/access";
+import type { cards } from "./en/cards";
+import type { guidance } from "./en/guidance";
+import type { robot } from "./en/robot";
+
+export type RobotWords = typeof robot;
+export type CardWords = typeof cards;
+export type HomeWords = RobotWords & CardWords;
+export type AccessWords = typeof access;
+export type GuidanceWords = typeof guidance;
