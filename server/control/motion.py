@@ -121,7 +121,8 @@ class Motion:
     async def _stop(self) -> None:
         if self._push is not None:
             self._push.cancel()
-            await asyncio.wait([self._push])
+            # What became of it does not matter any more: the queue is dropped.
+            await asyncio.gather(self._push, return_exceptions=True)
         await self._board.come_to_rest()
 
     def _obey_interruption(self) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.chromium import PHONE
+from tests.browser.chromium import phone_page
 from tests.browser.scenes import SCENES
 from tests.browser.stage import Stage, serve
 
@@ -23,15 +23,8 @@ SLOW = {
 @pytest.fixture
 def phone(browser: Browser) -> Iterator[Page]:
     """A phone."""
-    context = browser.new_context(
-        viewport={"width": PHONE["width"], "height": PHONE["height"]}, locale="en-GB"
-    )
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    yield page
-    context.close()
-    assert errors == []
+    with phone_page(browser, locale="en-GB") as page:
+        yield page
 
 
 def test_a_restart_of_the_server_takes_nothing_that_was_typed(phone: Page, stage: Stage) -> None:

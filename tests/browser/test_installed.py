@@ -14,7 +14,7 @@ from playwright.sync_api import Browser, Page, expect
 from playwright.sync_api import Error as PlaywrightError
 
 from tests.browser.axe import violations
-from tests.browser.chromium import PHONE
+from tests.browser.chromium import phone_page
 from tests.browser.scenes import SCENES
 from tests.browser.stage import STATIC_DIR, Stage, serve
 
@@ -31,15 +31,8 @@ LOOK_MS = 2_000
 @pytest.fixture
 def phone(browser: Browser) -> Iterator[Page]:
     """A phone that has never seen the page."""
-    context = browser.new_context(
-        viewport={"width": PHONE["width"], "height": PHONE["height"]}, locale="de-DE"
-    )
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    yield page
-    context.close()
-    assert errors == []
+    with phone_page(browser, locale="de-DE") as page:
+        yield page
 
 
 @pytest.fixture

@@ -95,17 +95,18 @@ class RoutineDesk:
     @property
     def shown(self) -> Routine | None:
         """The routine under way, or the last one; None before there was any."""
-        if self._routine is None:
-            return None
+        return None if self._routine is None else self._show(self._routine)
+
+    def _show(self, routine: AnyRoutine) -> Routine:
         progress = self._progress
         return Routine(
-            kind=self._routine.request.kind,
+            kind=routine.request.kind,
             state=self._state,
             doing=progress.doing,
             done=progress.done,
             total=progress.total,
             looks=list(progress.looks),
-            begun_by=self._routine.by,
+            begun_by=routine.by,
             begun_at=self._begun_at,
             calibration_id=self._kept,
             check_id=self._check,
@@ -158,9 +159,7 @@ class RoutineDesk:
         if self._state in {"running", "interrupted"}:  # it may just have ended
             self._state = "cancelled"
         self._changed()
-        shown = self.shown
-        assert shown is not None  # noqa: S101 - there is a routine
-        return shown
+        return self._show(self._routine)
 
     async def wait(self) -> None:
         """Wait until the routine has ended, or was interrupted."""
@@ -177,9 +176,7 @@ class RoutineDesk:
         # Not in the task: one that is cancelled before its first step never runs.
         self._task.add_done_callback(lambda _: self._supervisor.give_back(lease))
         self._changed()
-        shown = self.shown
-        assert shown is not None  # noqa: S101 - there is a routine
-        return shown
+        return self._show(routine)
 
     async def _run(self, routine: AnyRoutine, lease: Lease) -> None:
         stand = Stand(
