@@ -36,6 +36,7 @@ PING_S = 20
 PING_TIMEOUT_S = 30
 SHUTDOWN_S = 2
 MAX_MESSAGE_BYTES = 1 << 20
+THREADS_TURN_S = 0.001
 UNDER_WAY = (RobotMode.HOMING, RobotMode.MOVING, RobotMode.STOPPING)
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -71,6 +72,9 @@ def serve(settings: Settings) -> None:
     # It warns of every piece of nonsense that a stranger sends: he must not fill the log.
     logging.getLogger("uvicorn").setLevel(logging.ERROR)
     allow_many_files()
+    # Vision and planning think in threads; the loop that feeds the motion must not wait for them
+    # five milliseconds, which is what Python gives a thread by default.
+    sys.setswitchinterval(THREADS_TURN_S)
     tls = tls_files(settings)
     listener = _listen(settings.server.host, settings.server.port)
     # A real robot keeps real time; a simulated one waits for a machine that is too slow.

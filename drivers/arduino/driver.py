@@ -131,7 +131,8 @@ class ArduinoRobot:
         The routine runs on the board: it goes on if the caller stops waiting.
         """
         await self._require().home()
-        async for state in self._feed.subscribe():
+        # Asked anew: the link may have broken right behind the answer, and its feed with it.
+        async for state in self.telemetry():
             if state.board is BoardState.HOMING:
                 continue
             if state.fault is not None:

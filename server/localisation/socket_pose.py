@@ -59,8 +59,10 @@ class SocketPose:
     @property
     def lateral_sigma_mm(self) -> float:
         """Largest standard deviation of the origin across the axis [mm]."""
-        across = np.eye(3) - np.outer(self.axis, self.axis)
-        largest = float(np.linalg.eigvalsh(across @ self.covariance @ across)[-1])
+        across = self.T_base_socket[:3, :2]
+        (xx, xy), (_, yy) = (across.T @ self.covariance @ across).tolist()
+        # The larger eigenvalue of a symmetric 2x2 matrix; this is asked for with every sample.
+        largest = (xx + yy) / 2 + math.hypot((xx - yy) / 2, xy)
         return math.sqrt(max(0.0, largest))
 
 

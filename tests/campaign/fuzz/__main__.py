@@ -77,7 +77,8 @@ def _fuzz(server: ServerProcess, duration_s: float, rng: random.Random) -> list[
         else:
             tidy(server)
             watch.look()
-            print(f"\r{sum(target.tried for target in targets)} inputs", end="", flush=True)
+            tried = sum(target.tried for target in targets)
+            print(f"\r{tried} inputs, {watch.seen_mib[-1]:.0f} MiB  ", end="", flush=True)
     print(f"\r{(time.monotonic() - began_s) / 60:.1f} minutes")
     for target in targets:
         print(f"  {target.name:<28}{target.tried:>10} inputs")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from drivers.arduino.driver import ArduinoRobot
-from drivers.arduino.errors import BoardNotFoundError
+from drivers.arduino.errors import BoardNotFoundError, LinkLostError
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.messages import Refusal
 from drivers.arduino.settings import BoardSettings
@@ -99,6 +99,23 @@ async def test_a_silent_board_is_a_lost_one(homed: ArduinoRobot, cable: BoardCab
             pass
     with pytest.raises(NotConnectedError):
         await command
+
+
+async def test_a_link_that_breaks_right_behind_the_answer_ends_the_homing(
+    homed: ArduinoRobot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    connection = homed._connection
+    assert connection is not None
+    answered = connection.home
+
+    async def home() -> None:
+        await answered()
+        homed._lose(LinkLostError("The cable was pulled."))
+
+    monkeypatch.setattr(connection, "home", home)
+    async with asyncio.timeout(WITHIN_S):
+        with pytest.raises(NotConnectedError):
+            await homed.home()
 
 
 async def test_a_board_that_restarts_is_a_lost_one(homed: ArduinoRobot, cable: BoardCable) -> None:
