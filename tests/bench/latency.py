@@ -3,8 +3,8 @@
 Fifty watchers hold the WebSocket and one script reads the state, each from a process of its own,
 while jobs run on the simulator in real time. Measured are a read of the state, the age of the
 telemetry that a watcher gets (so the time from the sample to the watcher, with everything between),
-and how evenly the control loop gets its turn in the same process. The clients stand for other machines,
-so they yield this one's processors to the server. Options: seconds, watchers.
+and how evenly the control loop gets its turn in the same process. The clients stand for other
+machines, so they yield this one's processors to the server. Options: seconds, watchers.
 """
 
 from __future__ import annotations
