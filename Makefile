@@ -17,7 +17,7 @@ MAKEFLAGS += --no-print-directory
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run test lint format audit sbom bench bench-vision shots campaign calibrations \
-	fuzz fuzz-api hostile kill rig board lock clean \
+	fuzz fuzz-api fuzz-guided hostile kill rig board lock clean \
 	setup-dev system-packages \
 	check-style check-types check-web test-together test-alone test-web
 
@@ -40,7 +40,7 @@ format: setup-dev ## lay the Python sources out and mend what can be mended
 	@$(BIN)/ruff format --quiet .
 
 audit: $(VENV)/.audit web/node_modules/.package-lock.json ## look for known weaknesses in what is used (asks the registries)
-	@$(BIN)/pip-audit --progress-spinner off --require-hashes --disable-pip --requirement requirements.lock
+	@$(BIN)/pip-audit --progress-spinner off --strict --require-hashes --disable-pip --requirement requirements.lock
 	@cd web && npm audit --audit-level=low
 
 sbom: $(VENV)/.audit web/node_modules/.package-lock.json ## list all parts with licences and hashes, CycloneDX, into build/
@@ -76,6 +76,9 @@ calibrations: setup ## calibrate 10 badly built robots, passing over those done;
 	@mkdir -p build
 	@$(BIN)/plugpilot simulate calibration --seeds 0-9 --keep build/calibrations.jsonl $(ARGS)
 
+fuzz-guided: setup-dev $(VENV)/.guided ## the same for what reads foreign bytes, led by coverage; x86-64 only; --minutes N in ARGS
+	@$(BIN)/python -m tests.campaign.fuzz.guided $(ARGS)
+
 hostile: setup-dev ## 1000 times a hostile energy manager at a random moment; --timings N in ARGS
 	@$(BIN)/python -m tests.campaign.hostile $(ARGS)
 
@@ -96,6 +99,7 @@ lock: $(BIN)/python ## write the lock files; UPGRADE=--upgrade takes the newest 
 		--constraints requirements.lock --output-file requirements-dev.lock
 	@$(COMPILE) $(UPGRADE) --group node --output-file requirements-node.lock
 	@$(COMPILE) $(UPGRADE) --group audit --output-file requirements-audit.lock
+	@$(COMPILE) $(UPGRADE) --group guided --output-file requirements-guided.lock
 
 clean: ## remove everything that was installed or built, but no data
 	@rm -rf $(VENV) server/static web/node_modules dist build \
@@ -162,6 +166,11 @@ $(VENV)/.project: $(VENV)/.requirements pyproject.toml $(WEB_SOURCES)
 $(VENV)/.development: $(VENV)/.requirements requirements-dev.lock
 	@echo "Installing the tools for the checks ..."
 	@$(PIP) --require-hashes --requirement requirements-dev.lock
+	@touch $@
+
+$(VENV)/.guided: requirements-guided.lock | $(VENV)/.requirements
+	@echo "Installing the fuzzer that is led by coverage ..."
+	@$(PIP) --require-hashes --requirement requirements-guided.lock
 	@touch $@
 
 $(VENV)/.audit: requirements-audit.lock | $(VENV)/.requirements

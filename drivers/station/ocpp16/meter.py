@@ -63,7 +63,7 @@ def read_meter(samples: Iterable[Mapping[str, str]]) -> MeterReading:
 def _value(sample: Mapping[str, str], measurand: str) -> float:
     default = {ENERGY: "Wh", POWER: "W", CURRENT: "A"}[measurand]
     unit = sample.get("unit", default)
-    if not unit.endswith(default):
+    if unit not in UNITS or not unit.endswith(default):
         msg = f"{measurand} in {unit}"
         raise ValueError(msg)
     value = float(sample["value"]) * UNITS[unit]

@@ -43,7 +43,7 @@ def is_own_host(host: str, names: Collection[str]) -> bool:
     name without a dot, or a name under a suffix that is not for sale.
     """
     name = host_name(host)
-    if name is None or not host.isascii() or "@" in host or "/" in host:
+    if name is None or not _is_plain(host) or "@" in host or "/" in host:
         return False
     return is_address(name) or "." not in name or name.endswith(LOCAL_SUFFIXES) or name in names
 
@@ -62,6 +62,8 @@ def is_own_origin(origin: str, scheme: str, host: str) -> bool:
 
     Behind a proxy that ends TLS and does not say so, the page's scheme is https and ours http.
     """
+    if not _is_plain(origin):
+        return False
     try:
         page, own = urlsplit(origin), urlsplit(f"{scheme}://{host}")
         same = (page.hostname, _port(page.scheme, page.port)) == (
@@ -93,6 +95,11 @@ def is_from_elsewhere(headers: Mapping[str, str], scheme: str, *, opens_page: bo
         headers.get("sec-fetch-mode") == "navigate" and headers.get("sec-fetch-dest") == "document"
     )
     return not (opens_page and is_link)
+
+
+def _is_plain(head: str) -> bool:
+    """Whether nothing in it is passed over when it is taken apart, as tabs are in addresses."""
+    return head.isascii() and head.isprintable() and " " not in head
 
 
 def _port(scheme: str, port: int | None) -> int | None:

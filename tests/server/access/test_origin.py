@@ -39,6 +39,7 @@ def test_own_names(host: str) -> None:
         "user@localhost",
         "localhost/evil",
         "[::1",
+        "rob\tot.evil.local",  # what takes addresses apart passes over tabs and line ends
         "local",  # has no dot, so it is fine
     ],
 )
@@ -59,6 +60,7 @@ def test_any_origin_gets_a_verdict(origin: str, host: str) -> None:
 @pytest.mark.parametrize(
     ("origin", "scheme", "host", "own"),
     [
+        ("http://rob\rot.local", "http", "robot.local", False),
         ("http://robot:8000", "http", "robot:8000", True),
         ("http://robot", "http", "robot:80", True),
         ("https://robot", "https", "robot", True),
