@@ -98,6 +98,13 @@ TECHNICIAN_MODELS: dict[str, Json] = {
         "board": "Me Auriga",
         "firmware": "1.0.0",
         "protocol_hash": "13345a36",
+        "releases": [
+            {
+                "version": "0.1.0",
+                "released_on": "2026-11-22",
+                "changes": ["Plugs in and unplugs by itself, from a phone or over REST."],
+            }
+        ],
     },
     "ProtocolFrames": {
         "frames": [

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import date
+
 from pydantic import Field
 
 from server.schema.base import Wire
@@ -12,6 +14,14 @@ class LibraryVersion(Wire):
 
     name: str
     version: str
+
+
+class Release(Wire):
+    """What one release of this software brought."""
+
+    version: str
+    released_on: date
+    changes: list[str] = Field(description="Sentences in English")
 
 
 class Versions(Wire):
@@ -27,3 +37,4 @@ class Versions(Wire):
         description="Of the protocol that this software speaks; a board whose firmware was built "
         "for another one is refused"
     )
+    releases: list[Release] = Field(description="The newest first")

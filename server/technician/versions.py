@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from drivers.arduino.protocol.messages import PROTOCOL_HASH
 from drivers.robot import RobotIdentity
 from server.schema.versions import LibraryVersion, Versions
+from server.technician.changes import releases
 from server.version import VERSION
 
 LIBRARIES = (
@@ -42,6 +43,7 @@ def versions(identity: RobotIdentity | None) -> Versions:
         board=identity.name if identity else None,
         firmware=identity.firmware if identity else None,
         protocol_hash=f"{PROTOCOL_HASH:08x}",
+        releases=releases(),
     )
 
 

@@ -4408,6 +4408,24 @@ export interface components {
             readonly size_bytes: number;
         };
         /**
+         * Release
+         * @description What one release of this software brought.
+         */
+        readonly Release: {
+            /**
+             * Changes
+             * @description Sentences in English
+             */
+            readonly changes: readonly string[];
+            /**
+             * Released On
+             * Format: date
+             */
+            readonly released_on: string;
+            /** Version */
+            readonly version: string;
+        };
+        /**
          * ReplyMessage
          * @description Answer to a client message that carried an id.
          */
@@ -5089,6 +5107,11 @@ export interface components {
             readonly protocol_hash: string;
             /** Python */
             readonly python: string;
+            /**
+             * Releases
+             * @description The newest first
+             */
+            readonly releases: readonly components["schemas"]["Release"][];
             /** Software */
             readonly software: string;
             /** System */
@@ -9976,6 +9999,15 @@ export interface operations {
                      *       ],
                      *       "protocol_hash": "13345a36",
                      *       "python": "3.11.9",
+                     *       "releases": [
+                     *         {
+                     *           "changes": [
+                     *             "Plugs in and unplugs by itself, from a phone or over REST."
+                     *           ],
+                     *           "released_on": "2026-11-22",
+                     *           "version": "0.1.0"
+                     *         }
+                     *       ],
                      *       "software": "0.1.0",
                      *       "system": "Linux 6.6.31 aarch64"
                      *     }
