@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import binascii
-import errno
 import resource
 from collections.abc import Iterable
 from typing import Any
@@ -168,20 +167,6 @@ def allow_many_files() -> None:
     wanted = WANTED_FILES if hard == resource.RLIM_INFINITY else min(WANTED_FILES, hard)
     if soft != resource.RLIM_INFINITY and soft < wanted:
         resource.setrlimit(resource.RLIMIT_NOFILE, (wanted, hard))
-
-
-def forgive_the_vanished(loop: asyncio.AbstractEventLoop) -> None:
-    """Do not take it for an error of ours when a client vanishes while its connection is closed.
-
-    asyncio writes a whole trace into the log then, so that a stranger could fill it.
-    """
-
-    def handle(_: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        error = context.get("exception")
-        if not (isinstance(error, OSError) and error.errno == errno.ENOTCONN):
-            loop.default_exception_handler(context)
-
-    loop.set_exception_handler(handle)
 
 
 def _is_handshake(headers: Iterable[tuple[bytes, bytes]]) -> bool:

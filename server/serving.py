@@ -20,13 +20,14 @@ from server.composition import running
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
-from server.connections import allow_many_files, forgive_the_vanished, guarded
+from server.connections import allow_many_files, guarded
 from server.control.model import RobotMode
 from server.storage.folder_lock import holding
 from server.tidying import tidying_at_rest
 from server.timing import ScaledTimeLoop
 from server.tls import TlsFiles, tls_files
 from twin.scene import TwinHost
+from twin.scene.vanished import forgive_the_vanished
 
 SEND_BUFFER_BYTES = 32 * 1024
 """Small, so that a slow phone is fed the newest state instead of seconds of old ones."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import errno
 import logging
 import socket
 from collections.abc import AsyncIterator
@@ -14,7 +13,7 @@ import pytest
 import uvicorn
 
 from server import connections
-from server.connections import forgive_the_vanished, guarded
+from server.connections import guarded
 from tests.support.eventually import eventually
 
 HELLO = b"GET / HTTP/1.1\r\nHost: robot\r\n\r\n"
@@ -158,13 +157,3 @@ async def test_nonsense_after_an_answer_has_begun_ends_the_connection(
         await asyncio.wait_for(stream[0].read(), 5)
         _close(stream)
     assert [record for record in caplog.records if record.levelno >= logging.ERROR] == []
-
-
-@pytest.mark.parametrize(("number", "told"), [(errno.ENOTCONN, False), (errno.ENOSPC, True)])
-async def test_a_client_that_vanishes_is_no_error_of_ours(
-    number: int, caplog: pytest.LogCaptureFixture, *, told: bool
-) -> None:
-    loop = asyncio.get_running_loop()
-    forgive_the_vanished(loop)
-    loop.call_exception_handler({"message": "in a callback", "exception": OSError(number, "gone")})
-    assert bool(caplog.records) is told

@@ -14,6 +14,7 @@ import viser
 from viser import _messages as messages
 
 from twin.scene.message_buffer import send_what_is_kept
+from twin.scene.vanished import forgive_the_vanished
 
 if TYPE_CHECKING:
     from viser.infra import WebsockClientConnection
@@ -35,6 +36,7 @@ def open_server() -> viser.ViserServer:
     raw = server._websock_server  # noqa: SLF001
     raw.unregister_handler(messages.ShareUrlRequest)
     raw.unregister_handler(messages.ShareUrlDisconnect)
+    forgive_the_vanished(server.get_event_loop())
 
     send_what_is_kept(server)
 
