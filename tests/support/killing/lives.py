@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from server.control.model import PlugState
+from server.control.plug_guard import HELD
 from server.jobs.model import JobState, JobType
+from server.jobs.recovery import SEATED
 from server.schema.jobs import Job, JobEvent, JobRequest
 from server.services import Services
 from server.timing import VirtualTimeLoop
@@ -167,7 +169,11 @@ def die_at_entry(kind: str, when: str, number: int, folder: Path, *, dark: bool)
         assert not lives.accepted
         return True
     assert_done(lives, kind)
-    if "resumed" in {event.kind for event in lives.events} or not dark:
+    resumed = [event.phase for event in lives.events if event.kind == "resumed"]
+    if dark and resumed and resumed[-1] in SEATED and kind == "plug_in":
+        # Nothing needed to move, so nothing was homed: how to get out sideways is not known.
+        assert lives.plug in HELD
+    elif resumed or not dark:
         # A robot that was dark after its job is not homed: where it stands is not known.
         assert lives.plug is ENDS[kind]
     return True
