@@ -1,5 +1,6 @@
 import { GuidanceCard } from "@/guidance/card";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
+import { GuideDialog } from "@/parts/guide";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { History } from "@/parts/history";
@@ -36,6 +37,7 @@ export function App() {
         </div>
       </main>
       <StopBar />
+      <GuideDialog />
       <QuestionDialog />
       <ChoiceDialog />
       <PlanDialog />

@@ -6,6 +6,7 @@ import { pending, press, trouble } from "@/robot/actions";
 import type { Action } from "@/robot/describe";
 import { canAct, description, dismissedJobId } from "@/robot/view";
 import { words } from "@/words";
+import { GuideButton } from "./guide";
 import { Picture } from "./picture";
 
 /** The state of the robot in a picture and a sentence, and the one thing to do about it. */
@@ -24,6 +25,7 @@ export function Hero() {
         )}
       </div>
       <div class="hero-action">
+        <GuideButton />
         {action !== null && may("operate") && <ActionButtons action={action} />}
         {may("operate") && <OtherButtons others={others} />}
         {!may("operate") && <p class="soft">{say.watching}</p>}
