@@ -12,11 +12,13 @@ import { ReplayDialog } from "@/parts/replay";
 import { RobotCard } from "@/parts/robot-card";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
+import { useStopKey } from "@/parts/stop-key";
 import { TwinAlarm } from "@/parts/twin-alarm";
 import { Views } from "@/parts/views";
 
 /** The home page. */
 export function App() {
+  useStopKey();
   return (
     <>
       <Header />

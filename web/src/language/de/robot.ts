@@ -168,6 +168,7 @@ export const robot: RobotWords = {
     plugOut: "Ja, er ist heraus",
     plugIn: "Nein, er steckt noch",
     guide: "Schritt für Schritt",
+    wake: "Berühren Sie den Bildschirm, um ihn zu wecken.",
     busy: "Einen Moment…",
     stop: "Stopp",
     stopHint: "Hält jede Bewegung sofort an",

@@ -146,6 +146,7 @@ export const robot = {
     plugOut: "Yes, it is out",
     plugIn: "No, it is still in",
     guide: "Show me how",
+    wake: "Touch to wake the screen.",
     busy: "One moment…",
     stop: "Stop",
     stopHint: "Stops every movement at once",

@@ -178,6 +178,7 @@ export const robot: RobotWords = {
     plugOut: "Oui, elle est débranchée",
     plugIn: "Non, elle est encore branchée",
     guide: "Pas à pas",
+    wake: "Touchez l’écran pour le réveiller.",
     busy: "Un instant…",
     stop: "Stop",
     stopHint: "Arrête aussitôt tout mouvement",

@@ -175,6 +175,7 @@ export const robot: RobotWords = {
     plugOut: "Sì, è fuori",
     plugIn: "No, è ancora dentro",
     guide: "Passo per passo",
+    wake: "Toccare lo schermo per riattivarlo.",
     busy: "Un momento…",
     stop: "Stop",
     stopHint: "Ferma subito ogni movimento",
