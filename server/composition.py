@@ -225,6 +225,7 @@ async def running(
             running_settings=integrations.running_settings,
             events=integrations.events,
             webhooks=integrations.webhooks,
+            push=integrations.push(access, settings.push),
             charge_point=charge_point,
             twin=twin,
             garage=devices.garage,
@@ -265,6 +266,8 @@ async def _start(
     """Set everything going that does something by itself."""
     await services.webhooks.start()
     stack.push_async_callback(services.webhooks.close)
+    await services.push.start()
+    stack.push_async_callback(services.push.close)
     await services.charge_point.start()
     stack.push_async_callback(services.charge_point.close)
     await services.supervisor.start(wait=wait_for_robot)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from drivers.station import StationDriver
+from server.access import Access
 from server.adjusting import RunningSettings
 from server.charge_point import ChargePointService
+from server.config.push import PushSettings
 from server.config.settings import Settings
 from server.control.supervisor import Supervisor
 from server.events import EventLog
@@ -12,6 +14,8 @@ from server.events.sources import EventSources
 from server.jobs.runner import JobRunner
 from server.live.station_watch import StationWatch
 from server.live.views import robot_view
+from server.push.service import PushService
+from server.push.store import PushStore
 from server.services import Services
 from server.storage.charge_point import ChargePointStore
 from server.storage.database import Database
@@ -50,6 +54,18 @@ class Integrations:
             settings=lambda: running.current.webhooks,
             calendar=calendar,
             speed=speed,
+        )
+
+    def push(self, access: Access, settings: PushSettings) -> PushService:
+        """Notifications on the phones of those who are known."""
+        return PushService(
+            store=PushStore(self._database),
+            register=access.register,
+            events=self.events,
+            sender=HttpSender(lambda: settings, self._speed),
+            settings=settings,
+            calendar=self._calendar,
+            speed=self._speed,
         )
 
     def charge_point(

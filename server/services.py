@@ -21,6 +21,7 @@ from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
 from server.live.station_watch import StationWatch
+from server.push.service import PushService
 from server.recordings.playbacks import Playbacks
 from server.recordings.store import RecordingStore
 from server.simulated_car import SimulatedCar
@@ -62,6 +63,7 @@ class Services:
         running_settings: The settings that may change while PlugPilot runs.
         events: What has happened lately.
         webhooks: Who is told what happens.
+        push: Notifications on phones.
         charge_point: Robot and station as one charger.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
@@ -92,6 +94,7 @@ class Services:
     running_settings: RunningSettings
     events: EventLog
     webhooks: Webhooks
+    push: PushService
     charge_point: ChargePointService
     twin: TwinHost | None
     garage: SimulatedGarage | None

@@ -73,6 +73,7 @@ export default defineConfig({
     rolldownOptions: {
       input: {
         index: path.join(here, "index.html"),
+        kiosk: path.join(here, "kiosk.html"),
         technician: path.join(here, "technician.html"),
         worker: path.join(here, "src/worker/worker.ts"),
       },

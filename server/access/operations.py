@@ -14,6 +14,7 @@ OPERATIONS: Mapping[str, Need] = {
     # pages
     "GET /": Need.ANYONE,
     "GET /technician": Need.ANYONE,
+    "GET /kiosk": Need.ANYONE,
     "GET /assets/{name}": Need.ANYONE,
     "GET /icons/{name}": Need.ANYONE,
     "GET /manifest.webmanifest": Need.ANYONE,
@@ -116,6 +117,9 @@ OPERATIONS: Mapping[str, Need] = {
     "removePasskey": Need.PERSON,
     "beginLogin": Need.ANYONE,
     "logIn": Need.ANYONE,
+    "getPush": Need.PERSON,
+    "subscribePush": Need.PERSON,
+    "unsubscribePush": Need.PERSON,
     # everybody who is known
     "listPeople": Need.ADMIN,
     "changePerson": Need.ADMIN,

@@ -48,7 +48,18 @@ _PASSKEY: dict[str, Json] = {
     "last_used_at": None,
 }
 
+_PUSH_KEY = (
+    "BA1Hxzyi1RUM1b5wjxsn7nGxAszw2u61m164i3MrAIxHF6YK5h4SDYic-dRuU_RCPCfA5aq9ojSwk5Y2EmClBPs"
+)
+
 ACCESS_MODELS: dict[str, Json] = {
+    "PushState": {"public_key": _PUSH_KEY, "subscribed": False},
+    "PushSubscription": {
+        "endpoint": "https://push.example.net/send/bGF0ZXI",
+        "p256dh": _PUSH_KEY,
+        "auth": "BTBZMqHH6r4Tts7J_aSIgg",
+        "language": "de",
+    },
     "AccessSession": {
         "paired": True,
         "person": _PERSON,

@@ -84,6 +84,10 @@ def pages_router(static_dir: Path) -> APIRouter:
     def technician(request: Request) -> Response:
         return _page(request, static_dir / "technician.html")
 
+    @router.api_route("/kiosk", methods=["GET", "HEAD"])
+    def kiosk(request: Request) -> Response:
+        return _page(request, static_dir / "kiosk.html")
+
     @router.api_route("/assets/{name}", methods=["GET", "HEAD"])
     def asset(request: Request, name: str) -> Response:
         return _file(request, static_dir / "assets", name, _ASSET_HEADERS)

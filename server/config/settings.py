@@ -16,6 +16,7 @@ from server.config.insertion import InsertionSettings
 from server.config.jobs import JobSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
+from server.config.push import PushSettings
 from server.config.recordings import RecordingSettings
 from server.config.robot import RobotSettings
 from server.config.server import ServerSettings
@@ -70,6 +71,7 @@ class Settings(BaseSettings):
     tariff: TariffSettings = TariffSettings()
     charge_point: ChargePointSettings = ChargePointSettings()
     webhooks: WebhookSettings = WebhookSettings()
+    push: PushSettings = PushSettings()
     simulation: SimulationSettings = SimulationSettings()
     logging: LoggingSettings = LoggingSettings()
 

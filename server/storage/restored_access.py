@@ -30,13 +30,22 @@ from server.storage.access_tables import (
 from server.storage.backups import copy_file
 from server.storage.engines import file_engine
 from server.storage.errors import StorageError
+from server.storage.push_tables import PushKeyRow, PushSubscriptionRow
 from server.storage.tables import Base
 from server.storage.upgrade import needs_upgrade, upgrade
 
 _log = logging.getLogger(__name__)
 
-_KNOWN: tuple[type[Base], ...] = (PersonRow, DeviceRow, InvitationRow, ApiKeyRow, PasskeyRow)
-"""Referenced tables first."""
+_KNOWN: tuple[type[Base], ...] = (
+    PersonRow,
+    DeviceRow,
+    InvitationRow,
+    ApiKeyRow,
+    PasskeyRow,
+    PushKeyRow,
+    PushSubscriptionRow,
+)
+"""Referenced tables first. A device is told what happens as long as it may know."""
 
 
 @dataclass(frozen=True, slots=True)

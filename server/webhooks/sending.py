@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import ssl
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
 import httpx
 
-from server.config.webhooks import WebhookSettings
 from server.version import VERSION
 from server.webhooks.address import (
+    IpNetwork,
     Resolve,
     TargetRefusedError,
     TargetUnknownError,
@@ -44,6 +45,20 @@ class Outcome:
         return self.status == httpx.codes.GONE
 
 
+class Limits(Protocol):
+    """What an attempt may do."""
+
+    @property
+    def timeout_s(self) -> float:
+        """Longest time of one attempt."""
+        ...
+
+    @property
+    def allowed_networks(self) -> tuple[IpNetwork, ...]:
+        """Private networks that may be reached."""
+        ...
+
+
 class Sender(Protocol):
     """Makes attempts."""
 
@@ -63,25 +78,32 @@ class HttpSender:
         settings: Gives what is allowed now.
         speed: Seconds of the event loop per second of the world outside.
         resolve_name: Gives the addresses of a name.
+        trusted: Whose certificates are believed; those that everybody believes, if not given.
     """
 
     def __init__(
         self,
-        settings: Callable[[], WebhookSettings],
+        settings: Callable[[], Limits],
         speed: float = 1.0,
         resolve_name: Resolve = resolve,
+        trusted: ssl.SSLContext | bool = True,
     ) -> None:
         self._settings = settings
         self._speed = speed
         self._resolve = resolve_name
+        self._trusted = trusted
         self._clients: dict[bool, httpx.AsyncClient] = {}
 
     async def send(self, url: str, body: str, headers: Mapping[str, str]) -> Outcome:
         """POST the body; anything but a 2xx within the time is a failure."""
+        return await self.post(url, body.encode(), {"Content-Type": "application/json", **headers})
+
+    async def post(self, url: str, content: bytes, headers: Mapping[str, str]) -> Outcome:
+        """The same with bytes of any kind; the headers say which."""
         timeout_s = self._settings().timeout_s
         try:
             async with asyncio.timeout(timeout_s * self._speed):
-                return await self._send(url, body, headers)
+                return await self._send(url, content, headers)
         except (TimeoutError, httpx.TimeoutException):
             return Outcome(None, f"No answer within {timeout_s:g} s.")
         except (TargetRefusedError, TargetUnknownError) as error:
@@ -95,18 +117,17 @@ class HttpSender:
         for client in clients.values():
             await client.aclose()
 
-    async def _send(self, url: str, body: str, headers: Mapping[str, str]) -> Outcome:
+    async def _send(self, url: str, content: bytes, headers: Mapping[str, str]) -> Outcome:
         target = await admit(url, self._settings().allowed_networks, self._resolve)
         request_headers = {
             **headers,
             "Host": target.netloc,
-            "Content-Type": "application/json",
             "User-Agent": f"PlugPilot/{VERSION}",
         }
         async with self._client(secure=target.url.startswith("https:")).stream(
             "POST",
             target.url,
-            content=body.encode(),
+            content=content,
             headers=request_headers,
             extensions={"sni_hostname": target.host},
         ) as response:
@@ -128,7 +149,9 @@ class HttpSender:
                 timeout=None,  # the whole attempt has one  # noqa: S113
                 follow_redirects=False,
                 trust_env=False,  # a proxy would go where we do not
-                verify=secure,  # reading all certificates takes a while, and HTTP needs none
+                verify=self._trusted
+                if secure
+                else False,  # reading all certificates takes a while, and HTTP needs none
                 # A connection is for one name; by its address it might serve another one.
                 limits=httpx.Limits(max_keepalive_connections=0),
             )

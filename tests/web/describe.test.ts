@@ -264,7 +264,18 @@ suite("a job that waits", () => {
     const said = describe(live({ job: job(queued) }));
     expect(said.headline).toBe("The charge is planned");
     expect(kinds(said)).toEqual(["cancel"]);
+    expect(said.action).toBeNull(); // a quiet button: nothing is going on
+    expect(said.others).toEqual([{ kind: "cancel", label: "Cancel the plan" }]);
     const due = describe(live({ robot: robot({ updated_at: at(3601) }), job: job(queued) }));
     expect(due.headline).toBe("Getting ready");
+  });
+
+  test("for its time can be stopped only when that is near", () => {
+    const queued = { state: "queued", phase: "preflight", not_before: at(3600) } as const;
+    const stoppable = (seconds: number): boolean =>
+      describe(live({ robot: robot({ updated_at: at(seconds) }), job: job(queued) })).stoppable;
+    expect([0, 3500, 3541, 3601].map(stoppable)).toEqual([false, false, true, true]);
+    const moving = robot({ mode: "moving" });
+    expect(describe(live({ robot: moving, job: job(queued) })).stoppable).toBe(true);
   });
 });

@@ -12,6 +12,7 @@ from fastapi import FastAPI
 from server.api.pages import pages_router
 
 INDEX = b"<!doctype html><title>PlugPilot</title>"
+SCREEN = b"<!doctype html><title>Screen</title>"
 BENCH = b"<!doctype html><title>Technician</title>"
 SCRIPT = b"console.log('plugged in');"
 
@@ -23,6 +24,7 @@ def static_dir(tmp_path: Path) -> Path:
     (static / "assets").mkdir(parents=True)
     _write_packed(static / "index.html", INDEX)
     _write_packed(static / "technician.html", BENCH)
+    _write_packed(static / "kiosk.html", SCREEN)
     _write_packed(static / "assets" / "index-a1B2c3.js", SCRIPT)
     (static / "assets" / "index-d4E5f6.css").write_bytes(b"body{}")
     (static / "assets" / "notes.txt").write_bytes(b"not for the world")
@@ -67,6 +69,12 @@ async def test_the_technician_has_a_page_of_his_own(client: httpx.AsyncClient) -
     response = await client.get("/technician")
     assert response.content == BENCH
     assert response.headers["cache-control"] == "no-cache"
+    assert "default-src 'none'" in response.headers["content-security-policy"]
+
+
+async def test_the_robots_own_screen_has_a_page(client: httpx.AsyncClient) -> None:
+    response = await client.get("/kiosk")
+    assert response.content == SCREEN
     assert "default-src 'none'" in response.headers["content-security-policy"]
 
 

@@ -14,10 +14,11 @@ from server.control.trouble import _BY_CODE as BOARD_TROUBLES
 from server.errors import InternalError, PlugPilotError
 from server.jobs import errors as jobs
 from server.localisation import errors as localisation
+from server.push import errors as push
 from server.recordings import errors as recordings
 
 LANGUAGE = Path(__file__).resolve().parents[2] / "web" / "src" / "language"
-ROOMS = (access, charge_point, control, jobs, localisation, recordings)
+ROOMS = (access, charge_point, control, jobs, localisation, push, recordings)
 OF_PROGRAMS = {"idempotency_key_reused", "cancelled"}
 """Nobody sees these: the page makes its keys itself, and a cancelled job is no failure."""
 

@@ -1,5 +1,6 @@
 import { GuidanceCard } from "@/guidance/card";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
+import { GuideDialog } from "@/parts/guide";
 import { Header } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { History } from "@/parts/history";
@@ -11,11 +12,13 @@ import { ReplayDialog } from "@/parts/replay";
 import { RobotCard } from "@/parts/robot-card";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
+import { useStopKey } from "@/parts/stop-key";
 import { TwinAlarm } from "@/parts/twin-alarm";
 import { Views } from "@/parts/views";
 
 /** The home page. */
 export function App() {
+  useStopKey();
   return (
     <>
       <Header />
@@ -36,6 +39,7 @@ export function App() {
         </div>
       </main>
       <StopBar />
+      <GuideDialog />
       <QuestionDialog />
       <ChoiceDialog />
       <PlanDialog />

@@ -54,6 +54,11 @@ export function formatDate(date: string): string {
   return DATE.value.format(Date.parse(date));
 }
 
+/** The time of day as the reader's own country writes it. */
+export function formatTime(date: number): string {
+  return TIME.value.format(date);
+}
+
 /** Making a formatter costs far more than using it; each is kept until the language changes. */
 const NUMBERS = computed(() => {
   const made = new Map<number, Intl.NumberFormat>();
@@ -79,4 +84,8 @@ const DATE = computed(
       hour: "2-digit",
       minute: "2-digit",
     }),
+);
+
+const TIME = computed(
+  () => new Intl.DateTimeFormat(locale.value, { hour: "2-digit", minute: "2-digit" }),
 );

@@ -88,6 +88,7 @@ def test_a_stranger_may_do_little() -> None:
     assert {name for name, need in OPERATIONS.items() if need is Need.ANYONE} == {
         "GET /",
         "GET /technician",
+        "GET /kiosk",
         "GET /assets/{name}",
         "GET /icons/{name}",
         "GET /manifest.webmanifest",

@@ -12,6 +12,7 @@ import pytest
 import server
 
 HOST = Path(server.__file__).parent / "host"
+SCREEN_UNIT = HOST / "plugpilot-kiosk.service"
 UNIT = HOST / "plugpilot.service"
 WORST_EXPOSURE = 2.0
 """On systemd's scale of 0 to 10; a service without sandboxing has 9.6."""
@@ -52,3 +53,13 @@ def test_the_account_has_the_groups_that_the_unit_names() -> None:
     named = re.search(r"^SupplementaryGroups=(.*)$", UNIT.read_text(), re.MULTILINE)
     assert named is not None
     assert set(named[1].split()) == set(re.findall(r"^m plugpilot (\w+)$", account, re.MULTILINE))
+
+
+def test_systemd_understands_the_unit_of_the_screen(tmp_path: Path) -> None:
+    if shutil.which("systemd-analyze") is None:
+        pytest.skip("install the Debian package systemd")
+    content = re.sub(r"/usr/bin/(cage|curl|chromium)", "/bin/true", SCREEN_UNIT.read_text())
+    copy = tmp_path / SCREEN_UNIT.name
+    copy.write_text(content.replace("Documentation=file:/opt/plugpilot/README.md\n", ""))
+    run = _analyze("verify", "--man=no", copy)
+    assert copy.name not in run.stderr, run.stderr

@@ -6,19 +6,31 @@ import asyncio
 import contextlib
 import socket
 from collections.abc import AsyncIterator
+from pathlib import Path
 
 import uvicorn
 from starlette.types import ASGIApp
 
 
 @contextlib.asynccontextmanager
-async def serving(app: ASGIApp) -> AsyncIterator[str]:
-    """Serve an application; yields its address."""
+async def serving(app: ASGIApp, certificate: tuple[Path, Path] | None = None) -> AsyncIterator[str]:
+    """Serve an application; yields its address.
+
+    Args:
+        app: What is served.
+        certificate: Files of a certificate and its key; with them by https.
+    """
     listener = socket.create_server(("127.0.0.1", 0))
     # asyncio does this only for sockets that name their protocol; else answers come 40 ms late
     listener.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     config = uvicorn.Config(
-        app, log_level="error", access_log=False, lifespan="off", ws="websockets-sansio"
+        app,
+        log_level="error",
+        access_log=False,
+        lifespan="off",
+        ws="websockets-sansio",
+        ssl_certfile=certificate and certificate[0],
+        ssl_keyfile=certificate and certificate[1],
     )
     config.load()
     # Without its main loop, which only looks for signals, it starts and stops at once.
@@ -26,7 +38,8 @@ async def serving(app: ASGIApp) -> AsyncIterator[str]:
     server.lifespan = config.lifespan_class(config)
     await server.startup(sockets=[listener])
     try:
-        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
+        scheme = "http" if certificate is None else "https"
+        yield f"{scheme}://127.0.0.1:{listener.getsockname()[1]}"
     finally:
         server.force_exit = True
         await server.shutdown(sockets=[listener])

@@ -13,14 +13,20 @@ import { say } from "./words";
 
 const Menu = signal<FunctionComponent<{ onClose: () => void }> | null>(null);
 
+interface DoorProps {
+  readonly page: FunctionComponent;
+  /** What those see whom the robot does not know. */
+  readonly stranger?: FunctionComponent;
+}
+
 /** A page for those who are paired, the way in for all others. */
-export function Door({ page: Page }: { page: FunctionComponent }) {
+export function Door({ page: Page, stranger: Stranger = Pairing }: DoorProps) {
   const who = session.value;
   if (!speaking.value) return null;
   if (who === null) {
     return unanswered.value ? <Away /> : <p class="door-wait soft">{say.door.opening}</p>;
   }
-  if (!who.paired) return <Pairing />;
+  if (!who.paired) return <Stranger />;
   return (
     <>
       <Page />

@@ -1,9 +1,10 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { stopByRest } from "@/api/client";
+import { Refusal, stopByRest } from "@/api/client";
 import { told } from "@/language/problems";
 import { Brand } from "@/parts/header";
 import { LanguagePicker } from "@/parts/language-picker";
+import { words } from "@/words";
 import { logIn, ownerInvitation, takesPasskeys } from "./calls";
 import type { Invitation } from "./calls";
 import { attempt, doorTrouble, enter, may, secretIn, session, useInvitation } from "./session";
@@ -31,7 +32,7 @@ export function Pairing() {
   );
 }
 
-function DoorTrouble() {
+export function DoorTrouble() {
   if (doorTrouble.value === null) return null;
   const { title, remedy } = told(doorTrouble.value);
   return (
@@ -98,7 +99,7 @@ function Ways() {
 }
 
 /** The robot's own screen, as long as nobody owns the robot. */
-function OwnScreen() {
+export function OwnScreen() {
   const invitation = useSignal<Invitation | null>(null);
   useEffect(() => {
     const renew = (): void => {
@@ -130,19 +131,30 @@ export function Code({ invitation }: { invitation: Invitation }) {
 }
 
 /** On the robot's own machine anybody may stop it. */
-function LocalStop() {
+export function LocalStop() {
   const done = useSignal(false);
+  const stop = (): void => {
+    done.value = false;
+    void attempt(async () => {
+      try {
+        await stopByRest("stop");
+      } catch (error) {
+        if (error instanceof Refusal && !error.answered) throw new Refusal(words.trouble.stopUnsure, false);
+        throw error;
+      }
+      done.value = true;
+    });
+  };
   return (
     <section class="door-stop">
       <button
         type="button"
         class="stop"
-        onClick={() =>
-          void attempt(async () => {
-            await stopByRest("stop");
-            done.value = true;
-          })
-        }
+        // Stops as soon as the finger touches, not when it lifts.
+        onPointerDown={stop}
+        onClick={(event) => {
+          if (event.detail === 0) stop(); // from a keyboard or a screen reader
+        }}
       >
         {say.door.stop}
       </button>

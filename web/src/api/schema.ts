@@ -1173,6 +1173,34 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/push": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read whether this browser is notified
+         * @description The robot's key at push services, and whether this device is told what happens.
+         */
+        readonly get: operations["getPush"];
+        /**
+         * Notify this browser
+         * @description Tell this device when a job ends, fails or needs a person, until it is removed.
+         */
+        readonly put: operations["subscribePush"];
+        readonly post?: never;
+        /**
+         * Do not notify this browser
+         * @description Tell this device nothing any more.
+         */
+        readonly delete: operations["unsubscribePush"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot": {
         readonly parameters: {
             readonly query?: never;
@@ -4369,6 +4397,52 @@ export interface components {
              * @description To be sent as ``after`` next time
              */
             readonly newest: number;
+        };
+        /**
+         * PushState
+         * @description Whether this browser is notified.
+         */
+        readonly PushState: {
+            /**
+             * Public Key
+             * @description The robot's key: what a browser takes as applicationServerKey
+             * @example BA1Hxzyi1RUM1b5wjxsn7nGxAszw2u61m164i3MrAIxHF6YK5h4SDYic-dRuU_RCPCfA5aq9ojSwk5Y2EmClBPs
+             */
+            readonly public_key: string;
+            /**
+             * Subscribed
+             * @description This device is told what happens
+             */
+            readonly subscribed: boolean;
+        };
+        /**
+         * PushSubscription
+         * @description What a browser's pushManager gives.
+         */
+        readonly PushSubscription: {
+            /**
+             * Auth
+             * @description The browser's secret, base64url
+             */
+            readonly auth: string;
+            /**
+             * Endpoint
+             * @description Where messages for this browser go, by https
+             * @example https://push.example.net/send/bGF0ZXI
+             */
+            readonly endpoint: string;
+            /**
+             * Language
+             * @description Speak so
+             * @default en
+             * @enum {string}
+             */
+            readonly language?: "en" | "fr" | "de" | "it";
+            /**
+             * P256Dh
+             * @description The browser's public key, base64url
+             */
+            readonly p256dh: string;
         };
         /**
          * Quantity
@@ -8805,6 +8879,96 @@ export interface operations {
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getPush: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "public_key": "BA1Hxzyi1RUM1b5wjxsn7nGxAszw2u61m164i3MrAIxHF6YK5h4SDYic-dRuU_RCPCfA5aq9ojSwk5Y2EmClBPs",
+                     *       "subscribed": false
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["PushState"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly subscribePush: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "auth": "BTBZMqHH6r4Tts7J_aSIgg",
+                 *       "endpoint": "https://push.example.net/send/bGF0ZXI",
+                 *       "language": "de",
+                 *       "p256dh": "BA1Hxzyi1RUM1b5wjxsn7nGxAszw2u61m164i3MrAIxHF6YK5h4SDYic-dRuU_RCPCfA5aq9ojSwk5Y2EmClBPs"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["PushSubscription"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly unsubscribePush: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 204: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content?: never;
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

@@ -25,19 +25,45 @@ const catalogues: ((spoken: Language) => Promise<Put>)[] = [];
  *     export const say = catalogue<Words>(async (spoken) => (await files[spoken]()).words);
  */
 export function catalogue<Words extends object>(load: (spoken: Language) => Promise<Words>): Words {
+  return register(load).words;
+}
+
+/** The same for a part of a page that is loaded late: comes true when its words are there. */
+export async function catalogueNow<Words extends object>(
+  load: (spoken: Language) => Promise<Words>,
+): Promise<Words> {
+  const { words, loadFor } = register(load);
+  let spoken: Language;
+  do {
+    spoken = language.value;
+    (await loadFor(spoken))();
+  } while (spoken !== language.value); // somebody chose another one meanwhile
+  return words;
+}
+
+interface Registered<Words> {
+  readonly words: Words;
+  readonly loadFor: (spoken: Language) => Promise<Put>;
+}
+
+function register<Words extends object>(
+  load: (spoken: Language) => Promise<Words>,
+): Registered<Words> {
   const inForce = signal<Words | null>(null);
-  catalogues.push(async (spoken) => {
-    const words = await load(spoken);
+  const loadFor = async (spoken: Language): Promise<Put> => {
+    const loaded = await load(spoken);
     return () => {
-      inForce.value = words;
+      inForce.value = loaded;
     };
-  });
-  return new Proxy({} as Words, {
+  };
+  catalogues.push(loadFor);
+  const words = new Proxy({} as Words, {
     get: (_, section) => {
       if (inForce.value === null) throw new Error("no language is spoken yet");
       return Reflect.get(inForce.value, section) as unknown;
     },
   });
+  return { words, loadFor };
 }
 
 let announce: () => void;

@@ -29,6 +29,7 @@ export const PROBLEM_CODES = [
   "database_busy", "database_broken", "database_unreachable", "recording", "no_recording",
   "recording_running", "playback_failed", "access", "not_paired", "forbidden", "wrong_origin",
   "unknown_host", "invitation", "too_many_attempts", "last_owner", "no_such_entry", "passkey",
+  "push", "push_refused",
 ] as const;
 
 export type ProblemCode = (typeof PROBLEM_CODES)[number];

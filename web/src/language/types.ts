@@ -2,6 +2,7 @@
 import type { access } from "./en/access";
 import type { cards } from "./en/cards";
 import type { guidance } from "./en/guidance";
+import type { guides } from "./en/guides";
 import type { robot } from "./en/robot";
 
 export type RobotWords = typeof robot;
@@ -9,3 +10,4 @@ export type CardWords = typeof cards;
 export type HomeWords = RobotWords & CardWords;
 export type AccessWords = typeof access;
 export type GuidanceWords = typeof guidance;
+export type GuideWords = typeof guides;

@@ -17,15 +17,11 @@ function notReal({ simulated_parts: parts, speed }: Service): string | null {
 export function Header() {
   const service = useComputed(() => store.live.value?.service ?? null).value;
   const badge = service === null ? null : notReal(service);
-  const link = store.link.value;
-  const quiet = link === "live" && store.stale.value;
   return (
     <header class="header">
       <Brand />
       {badge !== null && <span class="badge">{badge}</span>}
-      <span class="link" data-link={quiet ? "quiet" : link} role="status">
-        {quiet ? words.link.quiet : words.link[link]}
-      </span>
+      <LinkState />
       <button
         type="button"
         class="button menu-button"
@@ -40,6 +36,17 @@ export function Header() {
         </svg>
       </button>
     </header>
+  );
+}
+
+/** Whether what the page shows is so now. */
+export function LinkState() {
+  const link = store.link.value;
+  const quiet = link === "live" && store.stale.value;
+  return (
+    <span class="link" data-link={quiet ? "quiet" : link} role="status">
+      {quiet ? words.link.quiet : words.link[link]}
+    </span>
   );
 }
 

@@ -3,13 +3,14 @@ import { say } from "@/access/words";
 import { told } from "@/language/problems";
 import { store } from "@/live/page";
 import { pending, press, trouble } from "@/robot/actions";
-import type { Action } from "@/robot/describe";
+import type { Action, ActionKind } from "@/robot/describe";
 import { canAct, description, dismissedJobId } from "@/robot/view";
 import { words } from "@/words";
+import { GuideButton } from "./guide";
 import { Picture } from "./picture";
 
 /** The state of the robot in a picture and a sentence, and the one thing to do about it. */
-export function Hero() {
+export function Hero({ without }: { without?: ActionKind }) {
   const { headline, detail, remedy, tone, scene, action, others } = description.value;
   return (
     <section class="hero" data-tone={tone} aria-busy={pending.value}>
@@ -24,8 +25,11 @@ export function Hero() {
         )}
       </div>
       <div class="hero-action">
+        <GuideButton />
         {action !== null && may("operate") && <ActionButtons action={action} />}
-        {may("operate") && <OtherButtons others={others} />}
+        {may("operate") && (
+          <OtherButtons others={others.filter(({ kind }) => kind !== without)} />
+        )}
         {!may("operate") && <p class="soft">{say.watching}</p>}
       </div>
       <TroubleNote />

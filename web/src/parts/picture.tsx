@@ -34,7 +34,7 @@ export function Picture({ arm, mark, tone }: PictureProps) {
 function Wall() {
   return (
     <g>
-      <rect class="wall" x="-200" y="-40" width="232" height="260" />
+      <rect class="wall" x="-400" y="-200" width="432" height="600" />
       <rect class="housing" x="26" y="62" width="58" height="98" rx="17" />
       <rect class="housing-face" x="34" y="70" width="42" height="82" rx="11" />
       <circle class="lens" cx="66" cy="86" r="6.5" />

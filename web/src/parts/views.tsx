@@ -2,6 +2,7 @@ import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { store } from "@/live/page";
 import { words } from "@/words";
+import { hearStopKeys } from "./stop-key";
 
 type View = "camera" | "twin";
 
@@ -114,7 +115,13 @@ function Twin() {
   return (
     <>
       <p class="view-note">{words.views.loading}</p>
-      <iframe ref={frame} src="/twin/" title={words.views.twin} data-behind={behind.value} />
+      <iframe
+        ref={frame}
+        src="/twin/"
+        title={words.views.twin}
+        data-behind={behind.value}
+        onLoad={(event) => hearStopKeys(event.currentTarget)}
+      />
       {behind.value && (
         <p class="view-warning" role="status">
           {words.views.twinFailed}

@@ -129,6 +129,12 @@ export function press(kind: ActionKind): void {
   }
 }
 
+/** The button at the end of a guide, which has asked already what a question would ask. */
+export function carryOut(kind: ActionKind): void {
+  press(kind);
+  if (question.value !== null) answerYes();
+}
+
 export function chargeVehicle(vehicle: Vehicle): void {
   choice.value = null;
   void attempt(() => startJob({ type: "charge", vehicle_id: vehicle.id }));

@@ -38,6 +38,8 @@ export interface Description {
   readonly others: readonly Action[];
   /** The stop button is shown: something moves or is about to. */
   readonly stoppable: boolean;
+  /** What a person is asked about, as a code: there are steps to follow. Null when nobody is. */
+  readonly help: string | null;
 }
 
 interface Sentence {
@@ -47,6 +49,8 @@ interface Sentence {
 
 /** So long a finished charge stays the headline. */
 const NEWS_MS = 30 * 60 * 1000;
+/** So long before its time a planned job counts as about to move. */
+const SOON_MS = 60 * 1000;
 
 /**
  * Describes every live state.
@@ -57,7 +61,7 @@ export function describe(live: Live, dismissedJobId: string | null = null): Desc
   const { robot, job } = live;
   const running = isActive(job) ? job : null;
   const stoppable = isStoppable(robot, running);
-  const base: Base = { remedy: "", stoppable, others: [] };
+  const base: Base = { remedy: "", stoppable, others: [], help: null };
   return (
     describeHalt(robot, base) ??
     (running !== null ? describeJob(robot, running, base) : null) ??
@@ -68,7 +72,7 @@ export function describe(live: Live, dismissedJobId: string | null = null): Desc
   );
 }
 
-type Base = Pick<Description, "remedy" | "stoppable" | "others">;
+type Base = Pick<Description, "remedy" | "stoppable" | "others" | "help">;
 
 /** True while anything moves or may begin to move without another press. */
 function isStoppable(robot: Robot, running: Job | null): boolean {
@@ -85,8 +89,15 @@ function isStoppable(robot: Robot, running: Job | null): boolean {
     case "off":
     case "not_homed":
     case "ready":
-      return running !== null && isUnderWay(running) && (isMovingPhase(running.phase) || running.cancel_requested);
+      if (running === null || !isUnderWay(running) || untilBeginMs(robot, running) > SOON_MS) return false;
+      return isMovingPhase(running.phase) || running.cancel_requested;
   }
+}
+
+/** How long a planned job still waits for its time, by the robot's clock; 0 when it does not. */
+function untilBeginMs(robot: Robot, job: Job): number {
+  if (job.state !== "queued" || job.not_before == null) return 0;
+  return Math.max(0, Date.parse(job.not_before) - Date.parse(robot.updated_at));
 }
 
 /** Offline, latched and stopping states come before everything else. */
@@ -101,6 +112,7 @@ function describeHalt(robot: Robot, base: Base): Description | null {
         tone: "problem",
         scene: { arm: armOf(robot), mark: "asleep" },
         action: null,
+        help: robot.fault?.code ?? "robot_offline",
       };
     case "emergency_stop":
       return {
@@ -109,6 +121,7 @@ function describeHalt(robot: Robot, base: Base): Description | null {
         remedy: remedyOf(robot) ?? words.state.emergencyRemedy,
         tone: "problem",
         scene: alert,
+        help: "emergency_stop",
         action: { kind: "reset", label: words.action.release },
       };
     case "fault":
@@ -118,6 +131,7 @@ function describeHalt(robot: Robot, base: Base): Description | null {
         remedy: remedyOf(robot) ?? "",
         tone: "problem",
         scene: alert,
+        help: robot.fault?.code ?? "robot_fault",
         action: { kind: "reset", label: words.action.clear },
       };
     case "stopped":
@@ -126,6 +140,7 @@ function describeHalt(robot: Robot, base: Base): Description | null {
         ...withPlugNote(words.state.stopped, robot),
         tone: "ask",
         scene: alert,
+        help: robot.fault?.code ?? "stopped",
         action: { kind: "reset", label: words.action.release },
       };
     case "stopping":
@@ -140,11 +155,12 @@ function describeJob(robot: Robot, job: Job, base: Base): Description {
     const action = job.cancel_requested ? null : cancel();
     const scene: Scene = { arm: armOf(robot), mark: "sync" };
     const start = job.not_before ?? null;
-    if (start === null || Date.parse(start) <= Date.parse(robot.updated_at)) {
+    if (start === null || untilBeginMs(robot, job) === 0) {
       return { ...base, ...words.state.queued, tone: "busy", scene, action };
     }
     const planned = words.state.planned(formatDate(start), job.unplug_by == null ? null : formatDate(job.unplug_by));
-    return { ...base, ...planned, tone: "calm", scene: { ...scene, mark: "none" }, action };
+    const others = action === null ? [] : [{ ...action, label: words.action.cancelPlan }];
+    return { ...base, ...planned, tone: "calm", scene: { ...scene, mark: "none" }, action: null, others };
   }
   if (!isUnderWay(job)) return describeWaiting(robot, job, base);
   const scene = sceneOf(job, robot);
@@ -179,6 +195,7 @@ function describeWaiting(robot: Robot, job: Job, base: Base): Description {
     scene: { arm, mark: "question" },
     action,
     others,
+    help: needs.code,
   };
 }
 
@@ -210,7 +227,7 @@ function describeQuestion(robot: Robot, base: Base): Description | null {
   if (robot.plug !== "unknown") return null;
   const scene: Scene = { arm: "near", mark: "question" };
   const action: Action = { kind: "confirm_plug", label: words.action.plugOut };
-  return { ...base, ...words.state.askPlug, tone: "ask", scene, action };
+  return { ...base, ...words.state.askPlug, tone: "ask", scene, action, help: "plug_unknown" };
 }
 
 /** Motion without a job: homing, or somebody at the controls. */
@@ -248,6 +265,7 @@ function describeFailure(
     remedy: error?.remedy ?? "",
     tone: "problem",
     scene: { arm: armOf(robot), mark: "alert" },
+    help: job.error?.code ?? "job",
     action:
       robot.plug === "inserted"
         ? { kind: "unplug", label: words.action.unplug }

@@ -17,6 +17,7 @@ const withoutRobot = (sentence: { headline: string; detail: string }): Descripti
   action: null,
   others: [],
   stoppable: false,
+  help: null,
 });
 
 function describePage(): Description {

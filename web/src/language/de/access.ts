@@ -64,6 +64,8 @@ export const access: AccessWords = {
       "Das erste Handy, das diesen Code scannt, gehört dem Besitzer. Er lädt dann alle anderen ein.",
     unreachable:
       "Andere Geräte erreichen diese Adresse nicht. Starten Sie PlugPilot mit --host 0.0.0.0.",
+    kioskTitle: "Dieser Bildschirm hält den Roboter an",
+    kioskHow: "Hier darf ihn jeder anhalten. Damit man hier auch laden kann, koppelt der Besitzer des Roboters diesen Bildschirm einmal.",
     stop: "Roboter anhalten",
     stopped: "Der Roboter steht.",
   },

@@ -116,4 +116,6 @@ export const problems: ProblemWords = {
   last_owner: ["Der Roboter braucht einen Besitzer", "Machen Sie zuerst jemand anderen zum Besitzer."],
   no_such_entry: ["Diesen Eintrag gibt es nicht", "Laden Sie die Liste noch einmal."],
   passkey: ["Der Passkey wurde nicht angenommen", "Versuchen Sie es noch einmal, oder bitten Sie den Besitzer um eine Einladung."],
+  push: ["Benachrichtigungen gehen nicht", "Sehen Sie stattdessen auf die Seite."],
+  push_refused: ["Dieser Browser lässt sich nicht benachrichtigen", "Nehmen Sie einen anderen Browser, oder sehen Sie auf die Seite."],
 };

@@ -62,6 +62,8 @@ export const access = {
     screenTitle: "Scan to own this robot",
     screenHow: "The first phone that scans this becomes the owner’s. The owner then invites everybody else.",
     unreachable: "Other devices cannot reach this address. Start PlugPilot with --host 0.0.0.0.",
+    kioskTitle: "This screen stops the robot",
+    kioskHow: "Anybody may stop it here. To charge from here, too, whoever owns the robot pairs this screen once.",
     stop: "Stop the robot",
     stopped: "The robot has stopped.",
   },

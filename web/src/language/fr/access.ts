@@ -67,6 +67,8 @@ export const access: AccessWords = {
       "Le premier téléphone qui scanne ce code devient celui du propriétaire. C’est lui qui invite ensuite les autres.",
     unreachable:
       "Les autres appareils n’atteignent pas cette adresse. Lancez PlugPilot avec --host 0.0.0.0.",
+    kioskTitle: "Cet écran arrête le robot",
+    kioskHow: "Tout le monde peut l’arrêter ici. Pour charger d’ici aussi, le propriétaire du robot associe une fois cet écran.",
     stop: "Arrêter le robot",
     stopped: "Le robot s’est arrêté.",
   },

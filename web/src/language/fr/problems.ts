@@ -115,4 +115,6 @@ export const problems: ProblemWords = {
   last_owner: ["Le robot a besoin d’un propriétaire", "Désignez d’abord un autre propriétaire."],
   no_such_entry: ["Cette entrée n’existe pas", "Rechargez la liste."],
   passkey: ["La clé d’accès n’a pas été acceptée", "Réessayez, ou demandez une invitation au propriétaire."],
+  push: ["Les notifications ne fonctionnent pas", "Consultez plutôt la page."],
+  push_refused: ["Ce navigateur ne peut pas être notifié", "Utilisez un autre navigateur, ou consultez la page."],
 };

@@ -64,6 +64,8 @@ export const access: AccessWords = {
       "Il primo telefono che inquadra questo codice diventa quello del proprietario, che poi invita tutti gli altri.",
     unreachable:
       "Gli altri dispositivi non raggiungono questo indirizzo. Avviare PlugPilot con --host 0.0.0.0.",
+    kioskTitle: "Questo schermo ferma il robot",
+    kioskHow: "Chiunque può fermarlo qui. Per ricaricare anche da qui, il proprietario del robot abbina una volta questo schermo.",
     stop: "Ferma il robot",
     stopped: "Il robot si è fermato.",
   },

@@ -115,4 +115,6 @@ export const problems: ProblemWords = {
   last_owner: ["Il robot ha bisogno di un proprietario", "Prima nominare un altro proprietario."],
   no_such_entry: ["Questa voce non esiste", "Ricaricare l’elenco."],
   passkey: ["La passkey non è stata accettata", "Riprovare, o chiedere un invito al proprietario."],
+  push: ["Le notifiche non funzionano", "Guardare invece la pagina."],
+  push_refused: ["Questo browser non può ricevere notifiche", "Usare un altro browser, oppure guardare la pagina."],
 };

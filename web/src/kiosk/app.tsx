@@ -1,0 +1,32 @@
+import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
+import { GuideDialog } from "@/parts/guide";
+import { LinkState } from "@/parts/header";
+import { Hero } from "@/parts/hero";
+import { LanguagePicker } from "@/parts/language-picker";
+import { StationCard } from "@/parts/station-card";
+import { StopBar } from "@/parts/stop-bar";
+import { Clock } from "./clock";
+import { Rest } from "./rest";
+
+/** The robot's own touch screen: the state, what can be done about it, and the stop. */
+export function Kiosk() {
+  return (
+    <>
+      <header class="kiosk-bar">
+        <LinkState />
+        <LanguagePicker />
+        <Clock />
+      </header>
+      <main class="kiosk-page">
+        {/* Planning asks for numbers: that needs a keyboard, and is done on a phone. */}
+        <Hero without="plan" />
+        <StationCard />
+      </main>
+      <StopBar />
+      <GuideDialog />
+      <QuestionDialog />
+      <ChoiceDialog />
+      <Rest />
+    </>
+  );
+}

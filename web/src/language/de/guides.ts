@@ -1,0 +1,36 @@
+/** Was ein Mensch Schritt für Schritt tut, wenn der Roboter nicht allein weiterkommt. */
+import type { GuideWords } from "../types";
+
+export const guides: GuideWords = {
+  steps: {
+    clear: "Vergewissern Sie sich, dass niemand am Stecker oder am Arm ist und nichts im Weg steht.",
+    lookAtPlug: "Gehen Sie zum Auto und sehen Sie Stecker und Ladedose an.",
+    plugIsOut: "Ist der Stecker ganz aus der Ladedose? Dann bestätigen Sie das unten.",
+    plugIsIn: "Steckt er noch, auch nur ein wenig? Dann nehmen Sie den anderen Knopf. Der Roboter zieht ihn gerade heraus.",
+    findReason: "Finden Sie heraus, warum der Roboter angehalten wurde, und beheben Sie das.",
+    twistButton: "Wurde der rote Knopf am Roboter gedrückt? Drehen Sie ihn, bis er herausspringt.",
+    parkHere: "Steht das Auto an seinem Platz vor dem Roboter? Wenn nicht, stellen Sie es dorthin.",
+    parkStraight: "Parken Sie noch einmal: gerade und nahe an der Mitte des Platzes.",
+    openFlap: "Öffnen Sie die Klappe der Ladedose ganz.",
+    wipeLabel: "Wischen Sie das Etikett neben der Ladedose und die Kamera des Roboters mit einem weichen Tuch ab.",
+    switchLightOn: "Machen Sie Licht, wenn es dunkel ist, oder aus, wenn es die Kamera blendet.",
+    checkLabel: "Prüfen Sie, ob das Etikett ganz, glatt und noch an seiner Stelle neben der Ladedose ist.",
+    emptySocket: "Sehen Sie in die Ladedose und auf den Stecker: keine Kappe, kein Schmutz, kein Eis.",
+    freeCable: "Prüfen Sie, ob das Kabel frei hängt und an nichts zieht.",
+    unlockCar: "Entriegeln Sie das Auto mit Schlüssel oder App. Viele Autos halten den Stecker fest, solange sie verriegelt sind.",
+    endCharge: "Beenden Sie das Laden im Auto oder in seiner App, und warten Sie eine Minute.",
+    stationOff: "Fließt der Strom dann noch, schalten Sie die Ladestation aus.",
+    stationOn: "Prüfen Sie, ob die Ladestation an ist und keinen Fehler zeigt.",
+    stationNetwork: "Prüfen Sie, ob die Ladestation mit dem Netzwerk verbunden ist.",
+    robotPower: "Prüfen Sie, ob der Roboter und sein Rechner Strom haben.",
+    usbCable: "Prüfen Sie, ob das USB-Kabel des Roboters an beiden Enden fest sitzt.",
+    comesBack: "Warten Sie einen Moment. Der Roboter meldet sich von selbst zurück, und diese Seite zeigt es.",
+    unblock: "Suchen Sie, was den Arm blockiert, bremst oder schiebt, und räumen Sie es weg.",
+    findsPosition: "Heben Sie unten die Störung auf. Der Roboter sucht dann langsam von selbst seine Position.",
+    checkCamera: "Prüfen Sie, ob das Kabel der Kamera steckt und nichts die Kamera verdeckt.",
+    carStandsStill: "Prüfen Sie, ob das Auto noch dort steht, wo es stand.",
+    technician: "Hilft das nicht oder kommt es wieder, rufen Sie die Person, die den Roboter betreut.",
+  },
+  back: "Schließen",
+  waits: "Es ist nichts zu drücken. Das hier schließt sich, sobald der Roboter wieder da ist.",
+};

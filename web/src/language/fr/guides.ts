@@ -1,0 +1,36 @@
+/** Ce que fait une personne, pas à pas, quand le robot ne peut pas continuer seul. */
+import type { GuideWords } from "../types";
+
+export const guides: GuideWords = {
+  steps: {
+    clear: "Assurez-vous que personne n’est près du connecteur ou du bras et que rien ne gêne.",
+    lookAtPlug: "Allez à la voiture et regardez le connecteur et la prise.",
+    plugIsOut: "Le connecteur est-il entièrement sorti de la prise\u00a0? Confirmez-le ci-dessous.",
+    plugIsIn: "Est-il encore dedans, même un peu\u00a0? Choisissez l’autre bouton. Le robot le retire tout droit.",
+    findReason: "Cherchez pourquoi le robot a été arrêté, et remédiez-y.",
+    twistButton: "Le bouton rouge du robot a-t-il été enfoncé\u00a0? Tournez-le jusqu’à ce qu’il ressorte.",
+    parkHere: "La voiture est-elle à sa place devant le robot\u00a0? Sinon, garez-la là.",
+    parkStraight: "Garez-vous de nouveau\u00a0: droit, et près du milieu de la place.",
+    openFlap: "Ouvrez entièrement la trappe de charge de la voiture.",
+    wipeLabel: "Essuyez l’étiquette à côté de la prise et la caméra du robot avec un chiffon doux.",
+    switchLightOn: "Allumez une lampe s’il fait sombre, ou éteignez celle qui éblouit la caméra.",
+    checkLabel: "Vérifiez que l’étiquette est intacte, bien à plat et toujours à sa place à côté de la prise.",
+    emptySocket: "Regardez dans la prise et sur le connecteur\u00a0: ni bouchon, ni saleté, ni glace.",
+    freeCable: "Vérifiez que le câble pend librement et ne tire sur rien.",
+    unlockCar: "Déverrouillez la voiture avec sa clé ou son application. Beaucoup de voitures retiennent le connecteur tant qu’elles sont verrouillées.",
+    endCharge: "Arrêtez la charge dans la voiture ou dans son application, et attendez une minute.",
+    stationOff: "Si le courant passe encore, coupez la borne de charge.",
+    stationOn: "Vérifiez que la borne de charge est allumée et n’affiche aucun défaut.",
+    stationNetwork: "Vérifiez que la borne de charge est connectée au réseau.",
+    robotPower: "Vérifiez que le robot et son ordinateur sont sous tension.",
+    usbCable: "Vérifiez que le câble USB du robot est bien enfoncé aux deux bouts.",
+    comesBack: "Attendez un moment. Le robot revient de lui-même, et cette page le montre.",
+    unblock: "Cherchez ce qui bloque, freine ou pousse le bras, et enlevez-le.",
+    findsPosition: "Effacez le défaut ci-dessous. Le robot cherche ensuite lentement sa position de lui-même.",
+    checkCamera: "Vérifiez que le câble de la caméra est branché et que rien ne couvre la caméra.",
+    carStandsStill: "Vérifiez que la voiture est toujours là où elle était.",
+    technician: "Si cela n’aide pas ou se reproduit, appelez la personne qui s’occupe du robot.",
+  },
+  back: "Fermer",
+  waits: "Il n’y a rien à presser. Ceci se ferme dès que le robot est de retour.",
+};

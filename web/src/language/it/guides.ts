@@ -1,0 +1,36 @@
+/** Che cosa fa una persona, passo per passo, quando il robot non può proseguire da solo. */
+import type { GuideWords } from "../types";
+
+export const guides: GuideWords = {
+  steps: {
+    clear: "Assicurarsi che nessuno sia vicino alla spina o al braccio e che nulla sia d’intralcio.",
+    lookAtPlug: "Andare all’auto e guardare la spina e la presa.",
+    plugIsOut: "La spina è del tutto fuori dalla presa? Confermarlo qui sotto.",
+    plugIsIn: "È ancora dentro, anche solo un po’? Scegliere l’altro pulsante. Il robot la estrae diritta.",
+    findReason: "Scoprire perché il robot è stato fermato e porvi rimedio.",
+    twistButton: "È stato premuto il pulsante rosso del robot? Girarlo finché non esce.",
+    parkHere: "L’auto è al suo posto davanti al robot? Se no, parcheggiarla lì.",
+    parkStraight: "Parcheggiare di nuovo: diritto e vicino al centro del posto.",
+    openFlap: "Aprire del tutto lo sportello della presa dell’auto.",
+    wipeLabel: "Pulire l’etichetta accanto alla presa e la telecamera del robot con un panno morbido.",
+    switchLightOn: "Accendere una luce se è buio, o spegnerla se abbaglia la telecamera.",
+    checkLabel: "Controllare che l’etichetta sia intera, ben piana e ancora al suo posto accanto alla presa.",
+    emptySocket: "Guardare nella presa e sulla spina: niente tappi, sporco o ghiaccio.",
+    freeCable: "Controllare che il cavo penda libero e non tiri nulla.",
+    unlockCar: "Sbloccare l’auto con la chiave o l’app. Molte auto trattengono la spina finché sono chiuse.",
+    endCharge: "Terminare la ricarica nell’auto o nella sua app e aspettare un minuto.",
+    stationOff: "Se la corrente passa ancora, spegnere la stazione di ricarica.",
+    stationOn: "Controllare che la stazione di ricarica sia accesa e non mostri guasti.",
+    stationNetwork: "Controllare che la stazione di ricarica sia collegata alla rete.",
+    robotPower: "Controllare che il robot e il suo computer abbiano corrente.",
+    usbCable: "Controllare che il cavo USB del robot sia ben inserito alle due estremità.",
+    comesBack: "Aspettare un momento. Il robot torna da solo, e questa pagina lo mostra.",
+    unblock: "Cercare che cosa blocca, frena o spinge il braccio e toglierlo.",
+    findsPosition: "Cancellare il guasto qui sotto. Il robot cerca poi da solo, lentamente, la sua posizione.",
+    checkCamera: "Controllare che il cavo della telecamera sia inserito e che nulla la copra.",
+    carStandsStill: "Controllare che l’auto sia ancora dov’era.",
+    technician: "Se non serve o si ripete, chiamare chi si occupa del robot.",
+  },
+  back: "Chiudi",
+  waits: "Non c’è nulla da premere. Questo si chiude quando il robot è tornato.",
+};
