@@ -1,13 +1,7 @@
-import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
-import type { Trouble } from "@/api/client";
 import type { CameraInspection } from "@/api/wire";
 import { Panel } from "../parts/panel";
 import { TroubleNote } from "../parts/trouble";
-import { magnification, side_px } from "./ellipse";
-import { follow } from "./follow";
-import type { Shown } from "./follow";
-import { Overlay } from "./overlay";
+import { Picture, sentenceOf, useCamera } from "./picture";
 import { say } from "./words";
 
 type SeenLabel = NonNullable<CameraInspection["label"]>;
@@ -18,21 +12,7 @@ export function CameraPanel() {
 }
 
 function Camera() {
-  const shown = useSignal<Shown | null>(null);
-  const trouble = useSignal<Trouble | null>(null);
-  useEffect(
-    () =>
-      follow({
-        show: (next) => {
-          trouble.value = null;
-          shown.value = next;
-        },
-        fail: (why) => {
-          trouble.value = why;
-        },
-      }),
-    [],
-  );
+  const { shown, trouble } = useCamera();
   const now = shown.value;
   return (
     <>
@@ -45,36 +25,6 @@ function Camera() {
       </div>
     </>
   );
-}
-
-function Picture({ shown, old }: { shown: Shown | null; old: boolean }) {
-  if (shown === null) {
-    return (
-      <div class="camera-picture">
-        <p class="view-note">{say.loading}</p>
-      </div>
-    );
-  }
-  const { width_px, height_px, label } = shown.inspection;
-  return (
-    <div class="camera-picture" data-old={old} style={{ aspectRatio: `${String(width_px)} / ${String(height_px)}` }}>
-      <img src={shown.picture} alt={say.alt} />
-      {label !== null && <Overlay width={width_px} height={height_px} label={label} />}
-    </div>
-  );
-}
-
-/** In a sentence or two: what there is to see, and how far it can be trusted. */
-export function sentenceOf({ label, trouble }: CameraInspection): string {
-  if (trouble !== null) {
-    const coarse = label?.pose == null ? "" : ` ${say.coarse}`;
-    return `${trouble.title}. ${trouble.detail} ${trouble.remedy}${coarse}`;
-  }
-  if (label === null) return say.nothing;
-  const { pose } = label;
-  if (pose === null) return say.stranger;
-  const times = magnification(pose.ellipse.major_px, side_px(label));
-  return `${say.trusted} ${say.magnified(times)}`;
 }
 
 function PoseFigures({ label }: { label: SeenLabel | null }) {

@@ -39,6 +39,7 @@ export function JogPad() {
   return (
     <section
       ref={box}
+      id="jog"
       class="card jog"
       tabIndex={0}
       aria-label={say.jog.title}
