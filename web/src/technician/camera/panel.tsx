@@ -1,4 +1,5 @@
 import type { CameraInspection } from "@/api/wire";
+import { formatNumber } from "@/format";
 import { Panel } from "../parts/panel";
 import { TroubleNote } from "../parts/trouble";
 import { Picture, sentenceOf, useCamera } from "./picture";
@@ -43,8 +44,8 @@ function PoseFigures({ label }: { label: SeenLabel | null }) {
         [say.pose.turnX, turn(0)],
         [say.pose.turnY, turn(1)],
         [say.pose.turnZ, turn(2)],
-        [say.pose.residual, pose === null ? say.unknown : `${pose.residual_px.toFixed(3)} px`],
-        [say.pose.inliers, pose === null ? say.unknown : `${share(pose.inlier_share)} of ${String(pose.measurements)}`],
+        [say.pose.residual, pose === null ? say.unknown : `${formatNumber(pose.residual_px, 3)} px`],
+        [say.pose.inliers, pose === null ? say.unknown : say.inliers(share(pose.inlier_share), formatNumber(pose.measurements, 0))],
         [say.pose.vehicle, label?.vehicle_id ?? say.unknown],
       ]}
     />
@@ -53,7 +54,7 @@ function PoseFigures({ label }: { label: SeenLabel | null }) {
 
 function Health({ inspection }: { inspection: CameraInspection | null }) {
   const show = (value: number | null | undefined, digits: number, unit: string): string =>
-    value == null ? say.unknown : `${value.toFixed(digits)}${unit}`;
+    value == null ? say.unknown : `${formatNumber(value, digits)}${unit}`;
   return (
     <Figures
       title={say.health.title}
@@ -85,10 +86,10 @@ function Figures({ title, lines }: { title: string; lines: readonly (readonly [s
   );
 }
 
-const share = (part: number): string => `${(100 * part).toFixed(1)} %`;
+const share = (part: number): string => `${formatNumber(100 * part, 1)} %`;
 
 /** A value and its standard deviation, with as many digits as that deserves. */
 function within(value: number, sigma: number, unit: string): string {
   const digits = sigma > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(sigma)), 1), 4) : 3;
-  return `${value.toFixed(Math.min(digits, 3))} ± ${sigma.toFixed(digits)} ${unit}`;
+  return `${formatNumber(value, Math.min(digits, 3))} ± ${formatNumber(sigma, digits)} ${unit}`;
 }

@@ -3,6 +3,7 @@ import type { ReadonlySignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { Trouble } from "@/api/client";
 import type { CameraInspection } from "@/api/wire";
+import { toldOnBench } from "../language/told";
 import { magnification, side_px } from "./ellipse";
 import { follow } from "./follow";
 import type { Shown } from "./follow";
@@ -56,7 +57,8 @@ export function Picture({ shown, old }: { shown: Shown | null; old: boolean }) {
 export function sentenceOf({ label, trouble }: CameraInspection): string {
   if (trouble !== null) {
     const coarse = label?.pose == null ? "" : ` ${say.coarse}`;
-    return `${trouble.title}. ${trouble.detail} ${trouble.remedy}${coarse}`;
+    const { title, detail, remedy } = toldOnBench(trouble);
+    return `${title}. ${detail} ${remedy}${coarse}`;
   }
   if (label === null) return say.nothing;
   const { pose } = label;

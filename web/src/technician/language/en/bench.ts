@@ -1,5 +1,6 @@
 /** What the technician's page says outside its panels. */
 import type { JogAxis, RobotMode } from "@/api/wire";
+import { formatNumber } from "@/format";
 import type { Direction } from "../../jog/axes";
 import type { BenchProblems } from "../told";
 
@@ -51,7 +52,7 @@ export const bench = {
     ways,
     keys: "Keys: arrows and Page Up, Page Down while this box has the focus.",
     gamepad: "Gamepad: hold L1 and push a stick. Releasing L1 stops.",
-    left: (way_mm: number): string => (way_mm === 0 ? "end" : `${way_mm.toFixed(0)} mm`),
+    left: (way_mm: number): string => (way_mm === 0 ? "end" : `${formatNumber(way_mm, 0)} mm`),
     notAllowed: "You may look. Only a technician or an owner may move the robot here.",
     notLive: "The page has no fresh values.",
     busy: "The robot is moving.",

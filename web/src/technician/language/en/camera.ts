@@ -1,4 +1,6 @@
 /** Every sentence of the camera's panel. */
+import { formatNumber } from "@/format";
+
 export const camera = {
   title: "Camera",
   hint: "Label, pose, health",
@@ -9,7 +11,8 @@ export const camera = {
   trusted: "The pose comes from all edges of the code and has passed every check.",
   coarse: "Only the corners fit: good to look at, nothing moves by it.",
   magnified: (times: number): string =>
-    `Ellipses: where the centre is, 1 σ and 95 %, drawn ${times.toLocaleString("en")} times as large.`,
+    `Ellipses: where the centre is, 1 σ and 95 %, drawn ${formatNumber(times, 0)} times as large.`,
+  inliers: (share: string, count: string): string => `${share} of ${count}`,
   pose: {
     title: "Pose in the camera frame",
     x: "Right",

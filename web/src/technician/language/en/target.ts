@@ -1,4 +1,6 @@
 /** Every sentence of the panel for going to a place. */
+import { formatNumber } from "@/format";
+
 export const target = {
   title: "Twin: go to a place",
   hint: "Point, look, then hold",
@@ -13,13 +15,13 @@ export const target = {
   ask: "Click in the picture, or give a place. The way is shown first; nothing moves.",
   beside: "That is not in front of the robot. Click where the plug shall go.",
   notNumbers: "Both places must be numbers.",
-  preview: (x: number, y: number): string => `To x ${x.toFixed(1)}, y ${y.toFixed(1)} mm`,
+  preview: (x: number, y: number): string => `To x ${formatNumber(x, 1)}, y ${formatNumber(y, 1)} mm`,
   checked: "The whole way is checked: limits, keep-outs, forces. Nothing moves before you hold the button.",
   way: "Way",
   time: "Time",
   speed: "Speed",
   force: "Force, most on the way",
-  of: (force: number, limit: number): string => `${Math.abs(force).toFixed(0)} of ${limit.toFixed(0)} N`,
+  of: (force: number, limit: number): string => `${formatNumber(Math.abs(force), 0)} of ${formatNumber(limit, 0)} N`,
   joints: { rho1: "Left carriage", rho2: "Right carriage", rho3: "Slide" },
   hold: "Hold to move there",
   moving: "Moving. Letting go stops.",
