@@ -9,7 +9,7 @@ import { say } from "./words";
 export function Versions() {
   const asked = useSignal<number | null>(null);
   return (
-    <section class="config-versions" aria-label={say.versions}>
+    <section class="config-versions">
       <h3>{say.versions}</h3>
       <ol>
         {versions.value.map((version, place) => (
