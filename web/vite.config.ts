@@ -81,7 +81,11 @@ export default defineConfig({
         // The worker's address may never change: browsers ask there for the next version.
         codeSplitting: {
           // One file for all that both pages need: each further one costs a journey to the robot.
-          groups: [{ name: "shared", test: /\/(src|preact|@preact)\//, minShareCount: 2 }],
+          // What only the technician's page and its later parts share stays out of the home page.
+          groups: [
+            { name: "technician", test: /\/src\/technician\//, minShareCount: 2, priority: 1 },
+            { name: "shared", test: /\/(src|preact|@preact)\//, minShareCount: 2 },
+          ],
         },
         entryFileNames: ({ name }) => (name === "worker" ? WORKER : "assets/[name]-[hash].js"),
       },

@@ -1,6 +1,7 @@
 """Pictures of the pages in every state: ``python -m tests.browser.shots FOLDER [STATE...]``.
 
-The home page is shown in four languages, the technician's page in English.
+The home page and what is opened on the technician's page are shown in four languages, the other
+states of the technician's page in English.
 """
 
 from __future__ import annotations
@@ -15,12 +16,14 @@ from typing import Literal
 from playwright.sync_api import Page
 
 from server.schema.live import Live
+from tests.browser.bench_scenes import OPENED as BENCH_OPENED
 from tests.browser.chromium import DESKTOP, PHONE, chromium
 from tests.browser.guidance_scenes import SCENES as GUIDANCE
 from tests.browser.languages import LOCALES
 from tests.browser.scenes import SCENES
 from tests.browser.stage import OWNER, STRANGER, Stage, serve
 
+SETTLES_MS = 400
 SIZES = {"phone": PHONE, "desktop": DESKTOP}
 SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 STATES: Mapping[str, Live] = {
@@ -83,7 +86,9 @@ def main() -> None:
                 reduced_motion="reduce",
             )
             shoot = partial(_shoot, page, Path(folder), f"{language}-{size}-{scheme}")
-            for name in names or (*STATES, *OPENED):
+            for name in [name for name in names or BENCH_OPENED if name in BENCH_OPENED]:
+                _shoot_bench(page, stage, address, name, shoot)
+            for name in [name for name in names or (*STATES, *OPENED) if name not in BENCH_OPENED]:
                 state, opened = OPENED.get(name, (name, None))
                 stage.live = STATES[state]
                 page.goto(address)
@@ -98,6 +103,21 @@ def main() -> None:
             if not names:
                 _shoot_without_a_robot(page, stage, address, shoot)
             page.close()
+
+
+def _shoot_bench(
+    page: Page, stage: Stage, address: str, name: str, shoot: Callable[[str], None]
+) -> None:
+    """Something that is opened on the technician's page, from its top."""
+    stage.live, opened = BENCH_OPENED[name]
+    page.goto(f"{address}/technician")
+    page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")  # nothing read before
+    page.reload()
+    page.locator(".link[data-link=live]").wait_for()
+    opened(page)
+    page.locator("details[open]").evaluate("panel => panel.scrollIntoView()")
+    page.wait_for_timeout(SETTLES_MS)
+    shoot(f"technician-{name}")
 
 
 def _shoot_without_a_robot(

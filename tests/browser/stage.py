@@ -12,7 +12,7 @@ from pathlib import Path
 
 import uvicorn
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
-from fastapi.responses import HTMLResponse, JSONResponse
+from fastapi.responses import HTMLResponse, JSONResponse, Response
 
 from server.access import Role
 from server.access.rights import ROLE_RIGHTS
@@ -23,6 +23,7 @@ from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
 from server.schema.robot import Reach, WayLeft
 from server.schema.vehicles import Vehicle, VehicleList
+from tests.browser.bench_scenes import answer, picture
 from tests.browser.scenes import LABEL_NOT_FOUND, SCENES, job
 
 STATIC_DIR = Path(__file__).resolve().parents[2] / "server" / "static"
@@ -95,6 +96,8 @@ class Stage:
         self.app.get("/api/v1/jobs/{job_id}/playback")(self._playback)
         self.app.get("/api/v1/robot/reach")(self._reach)
         self.app.get("/twin/")(self._twin)
+        self.app.get("/api/v1/camera/inspection/{name}")(self._picture)
+        self.app.get("/api/v1/{rest:path}")(self._example)
         self.app.post("/api/v1/{rest:path}")(self._accept)
 
     async def _send_live(self, connection: WebSocket) -> None:
@@ -120,7 +123,7 @@ class Stage:
         robot = self.live.robot.model_copy(update={"updated_at": updated_at})
         differing = {
             name: getattr(self.live, name)
-            for name in ("job", "station", "service", "twin", "queue", "guidance")
+            for name in ("job", "station", "service", "twin", "queue", "guidance", "calibration")
             if getattr(self.live, name) != getattr(shown, name)
         }
         return LiveChanges(robot=robot, **differing)
@@ -147,6 +150,15 @@ class Stage:
 
     async def _twin(self) -> HTMLResponse:
         return HTMLResponse('<!doctype html><html lang="en"><title>3D</title><p>3D</p></html>')
+
+    async def _picture(self, name: str) -> Response:
+        del name
+        return Response(picture(), media_type="image/jpeg")
+
+    async def _example(self, rest: str) -> JSONResponse:
+        await asyncio.sleep(BEAT_S)  # the page asks again and again
+        found = answer(rest)
+        return JSONResponse(found, 404 if found is None else 200)
 
     async def _accept(self, request: Request, rest: str) -> JSONResponse:
         self.requests.append(f"{request.method} /{rest}")

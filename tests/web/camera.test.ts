@@ -4,7 +4,8 @@ import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
 import openapi from "../../web/openapi.json";
 import type { CameraInspection } from "@/api/wire";
 import { magnification, side_px, SIGMAS_95 } from "@/technician/camera/ellipse";
-import { CameraPanel, sentenceOf } from "@/technician/camera/panel";
+import { CameraPanel } from "@/technician/camera/panel";
+import { sentenceOf } from "@/technician/camera/picture";
 import { FakeRest } from "./rest";
 
 const EXAMPLE = openapi.paths["/api/v1/camera/inspection"].get.responses["200"].content["application/json"]

@@ -1,5 +1,6 @@
 import { configure } from "@testing-library/preact";
 import { speak } from "@/language/catalogue";
+import "@/technician/language/spoken";
 import "@/language/spoken";
 import type { DetachedWindowAPI } from "happy-dom";
 

@@ -96,6 +96,7 @@ export function live(changes: Partial<Live> = {}): Live {
     twin: { divergences: [] },
     guidance: null,
     queue: { waiting: null },
+    calibration: {},
     ...changes,
   };
 }

@@ -8,6 +8,9 @@ from pathlib import Path
 
 from drivers.robot import FaultCode
 from server.access import errors as access
+from server.calibration.robot import errors as looks
+from server.calibration.routines import errors as routines
+from server.calibration.versions import errors as versions
 from server.charge_point import errors as charge_point
 from server.control import errors as control
 from server.control.trouble import _BY_CODE as BOARD_TROUBLES
@@ -17,7 +20,10 @@ from server.localisation import errors as localisation
 from server.push import errors as push
 from server.recordings import errors as recordings
 
-LANGUAGE = Path(__file__).resolve().parents[2] / "web" / "src" / "language"
+WEB = Path(__file__).resolve().parents[2] / "web" / "src"
+LANGUAGE = WEB / "language"
+BENCH = WEB / "technician" / "language" / "told.ts"
+DOINGS = WEB / "calibration" / "translated.ts"
 ROOMS = (access, charge_point, control, jobs, localisation, push, recordings)
 OF_PROGRAMS = {"idempotency_key_reused", "cancelled"}
 """Nobody sees these: the page makes its keys itself, and a cancelled job is no failure."""
@@ -29,8 +35,8 @@ def _kinds(kind: type[PlugPilotError]) -> Iterator[type[PlugPilotError]]:
         yield from _kinds(each)
 
 
-def _listed() -> set[str]:
-    text = (LANGUAGE / "problems.ts").read_text(encoding="utf-8")
+def _listed(file: Path = LANGUAGE / "problems.ts") -> set[str]:
+    text = file.read_text(encoding="utf-8")
     table = re.search(r"PROBLEM_CODES = \[(.*?)\]", text, re.DOTALL)
     assert table is not None
     return set(re.findall(r'"(\w+)"', table[1]))
@@ -44,11 +50,26 @@ def test_every_problem_of_the_home_page_is_translated() -> None:
     assert shown - _listed() == set()
 
 
+def test_every_problem_of_calibration_is_translated_for_technicians() -> None:
+    rooms = {room.__name__ for room in (looks, routines, versions)}
+    shown = {kind.code for kind in _kinds(PlugPilotError) if kind.__module__ in rooms}
+    assert shown - _listed(BENCH) == set()
+
+
+def test_every_sentence_of_a_routine_is_translated() -> None:
+    """What is not in the list stays in English: a new sentence belongs there."""
+    folder = WEB.parents[1] / "server" / "calibration" / "routines"
+    source = "".join(path.read_text(encoding="utf-8") for path in folder.glob("*.py"))
+    said = set(re.findall(r'(?:progress\.say\(|\.doing = |doing: str = )"([^"]+)"', source))
+    listed = set(re.findall(r': "([^"]+\.)",', DOINGS.read_text(encoding="utf-8")))
+    assert said == listed
+
+
 def test_nothing_is_translated_that_the_server_never_says() -> None:
     source = "".join(
         path.read_text(encoding="utf-8")
         for folder in ("server", "drivers")
         for path in (LANGUAGE.parents[2] / folder).rglob("*.py")
     )
-    unknown = {code for code in _listed() if f'"{code}"' not in source}
+    unknown = {code for code in _listed() | _listed(BENCH) if f'"{code}"' not in source}
     assert unknown == set()

@@ -26,6 +26,8 @@ export interface Trouble {
   readonly title: string;
   readonly detail: string;
   readonly remedy: string;
+  /** Facts of this occurrence, by name with unit. */
+  readonly context?: Readonly<Record<string, unknown>>;
 }
 
 /** The server said no, or could not be asked. */
@@ -83,8 +85,8 @@ function troubleIn(text: string): Trouble {
   try {
     const found = JSON.parse(text) as Partial<Trouble> | null;
     if (typeof found?.title === "string" && typeof found.detail === "string") {
-      const { code = "unknown", title, detail, remedy = "" } = found;
-      return { code, title, detail, remedy };
+      const { code = "unknown", title, detail, remedy = "", context } = found;
+      return { code, title, detail, remedy, ...(context !== undefined && { context }) };
     }
   } catch {
     // Not JSON: the general words below are all that can be said.

@@ -20,6 +20,7 @@ export function merge(live: Live, changes: DeltaMessage["changes"]): Live {
     twin: changes.twin ?? live.twin ?? {},
     guidance: changes.guidance ?? live.guidance ?? null,
     queue: changes.queue ?? live.queue ?? {},
+    calibration: changes.calibration ?? live.calibration ?? {},
   };
 }
 

@@ -1,3 +1,4 @@
+import { CalibrationPanel } from "@/calibration/opening";
 import { QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { CameraPanel } from "./camera/panel";
@@ -25,6 +26,7 @@ export function Technician() {
         </div>
         <div class="column">
           <JogPad />
+          <CalibrationPanel />
           <TargetPanel />
           <ConsolePanel />
         </div>

@@ -2,6 +2,7 @@ import { store } from "@/live/page";
 import { command, pending, press, trouble } from "@/robot/actions";
 import { canAct, description } from "@/robot/view";
 import { words } from "@/words";
+import { TroubleWords } from "./parts/trouble";
 import { say } from "./words";
 
 /** What the robot is doing, who has control, and its switches. */
@@ -56,9 +57,7 @@ export function RobotBox() {
       )}
       <div role="alert">
         {found !== null && (
-          <p class="robot-trouble">
-            <strong>{found.title}.</strong> {found.detail} {found.remedy}
-          </p>
+          <TroubleWords trouble={found} />
         )}
       </div>
     </section>

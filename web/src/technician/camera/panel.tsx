@@ -1,13 +1,8 @@
-import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
-import type { Trouble } from "@/api/client";
 import type { CameraInspection } from "@/api/wire";
+import { formatNumber } from "@/format";
 import { Panel } from "../parts/panel";
 import { TroubleNote } from "../parts/trouble";
-import { magnification, side_px } from "./ellipse";
-import { follow } from "./follow";
-import type { Shown } from "./follow";
-import { Overlay } from "./overlay";
+import { Picture, sentenceOf, useCamera } from "./picture";
 import { say } from "./words";
 
 type SeenLabel = NonNullable<CameraInspection["label"]>;
@@ -18,21 +13,7 @@ export function CameraPanel() {
 }
 
 function Camera() {
-  const shown = useSignal<Shown | null>(null);
-  const trouble = useSignal<Trouble | null>(null);
-  useEffect(
-    () =>
-      follow({
-        show: (next) => {
-          trouble.value = null;
-          shown.value = next;
-        },
-        fail: (why) => {
-          trouble.value = why;
-        },
-      }),
-    [],
-  );
+  const { shown, trouble } = useCamera();
   const now = shown.value;
   return (
     <>
@@ -45,36 +26,6 @@ function Camera() {
       </div>
     </>
   );
-}
-
-function Picture({ shown, old }: { shown: Shown | null; old: boolean }) {
-  if (shown === null) {
-    return (
-      <div class="camera-picture">
-        <p class="view-note">{say.loading}</p>
-      </div>
-    );
-  }
-  const { width_px, height_px, label } = shown.inspection;
-  return (
-    <div class="camera-picture" data-old={old} style={{ aspectRatio: `${String(width_px)} / ${String(height_px)}` }}>
-      <img src={shown.picture} alt={say.alt} />
-      {label !== null && <Overlay width={width_px} height={height_px} label={label} />}
-    </div>
-  );
-}
-
-/** In a sentence or two: what there is to see, and how far it can be trusted. */
-export function sentenceOf({ label, trouble }: CameraInspection): string {
-  if (trouble !== null) {
-    const coarse = label?.pose == null ? "" : ` ${say.coarse}`;
-    return `${trouble.title}. ${trouble.detail} ${trouble.remedy}${coarse}`;
-  }
-  if (label === null) return say.nothing;
-  const { pose } = label;
-  if (pose === null) return say.stranger;
-  const times = magnification(pose.ellipse.major_px, side_px(label));
-  return `${say.trusted} ${say.magnified(times)}`;
 }
 
 function PoseFigures({ label }: { label: SeenLabel | null }) {
@@ -93,8 +44,8 @@ function PoseFigures({ label }: { label: SeenLabel | null }) {
         [say.pose.turnX, turn(0)],
         [say.pose.turnY, turn(1)],
         [say.pose.turnZ, turn(2)],
-        [say.pose.residual, pose === null ? say.unknown : `${pose.residual_px.toFixed(3)} px`],
-        [say.pose.inliers, pose === null ? say.unknown : `${share(pose.inlier_share)} of ${String(pose.measurements)}`],
+        [say.pose.residual, pose === null ? say.unknown : `${formatNumber(pose.residual_px, 3)} px`],
+        [say.pose.inliers, pose === null ? say.unknown : say.inliers(share(pose.inlier_share), formatNumber(pose.measurements, 0))],
         [say.pose.vehicle, label?.vehicle_id ?? say.unknown],
       ]}
     />
@@ -103,7 +54,7 @@ function PoseFigures({ label }: { label: SeenLabel | null }) {
 
 function Health({ inspection }: { inspection: CameraInspection | null }) {
   const show = (value: number | null | undefined, digits: number, unit: string): string =>
-    value == null ? say.unknown : `${value.toFixed(digits)}${unit}`;
+    value == null ? say.unknown : `${formatNumber(value, digits)}${unit}`;
   return (
     <Figures
       title={say.health.title}
@@ -135,10 +86,10 @@ function Figures({ title, lines }: { title: string; lines: readonly (readonly [s
   );
 }
 
-const share = (part: number): string => `${(100 * part).toFixed(1)} %`;
+const share = (part: number): string => `${formatNumber(100 * part, 1)} %`;
 
 /** A value and its standard deviation, with as many digits as that deserves. */
 function within(value: number, sigma: number, unit: string): string {
   const digits = sigma > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(sigma)), 1), 4) : 3;
-  return `${value.toFixed(Math.min(digits, 3))} ± ${sigma.toFixed(digits)} ${unit}`;
+  return `${formatNumber(value, Math.min(digits, 3))} ± ${formatNumber(sigma, digits)} ${unit}`;
 }

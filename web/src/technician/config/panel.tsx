@@ -64,7 +64,7 @@ function Form({ now }: { now: Configuration }) {
       </p>
       {now.changeable.map((section) => (
         <fieldset key={section}>
-          <legend>{section}</legend>
+          <legend lang="en">{section}</legend>
           {changeable
             .filter(({ key }) => key.startsWith(`${section}.`))
             .map((field) => (
@@ -116,7 +116,7 @@ function SettingInput({ field, now }: { field: ConfigurationField; now: string }
   const options = kind === "boolean" ? ["true", "false"] : choices;
   return (
     <div class="field config-field">
-      <label for={id}>{key.split(".").slice(1).join(".").replaceAll("_", " ")}</label>
+      <label for={id} lang="en">{key.split(".").slice(1).join(".").replaceAll("_", " ")}</label>
       {options.length > 0 ? (
         <select {...described} onChange={(event) => type(key, event.currentTarget.value)}>
           {options.map((each) => (
@@ -136,7 +136,11 @@ function SettingInput({ field, now }: { field: ConfigurationField; now: string }
         />
       )}
       <p id={`${id}-words`} class={wrong === undefined ? "soft" : "config-wrong"}>
-        {wrong ?? `${words}. ${say.limits(least, most)}`}
+        {wrong ?? (
+          <>
+            <span lang="en">{words}.</span> {say.limits(least, most)}
+          </>
+        )}
       </p>
     </div>
   );
@@ -164,7 +168,7 @@ function InFile({ now }: { now: Configuration }) {
         />
       </label>
       <div class="config-list" tabIndex={0} role="group" aria-label={say.file}>
-        <dl>
+        <dl lang="en">
           {shown.map(({ key, words }) => (
             <div key={key} title={words}>
               <dt>{key}</dt>

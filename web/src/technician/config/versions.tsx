@@ -1,5 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { ConfigurationVersion } from "@/api/wire";
+import { formatDate } from "@/format";
 import { textOf } from "./draft";
 import { goBack, saving, versions } from "./editor";
 import { say } from "./words";
@@ -8,13 +9,13 @@ import { say } from "./words";
 export function Versions() {
   const asked = useSignal<number | null>(null);
   return (
-    <section class="config-versions" aria-label={say.versions}>
+    <section class="config-versions">
       <h3>{say.versions}</h3>
       <ol>
         {versions.value.map((version, place) => (
           <li key={version.number}>
             <div>
-              <strong>{version.at === null ? say.start : new Date(version.at).toLocaleString()}</strong>{" "}
+              <strong>{version.at === null ? say.start : formatDate(version.at)}</strong>{" "}
               <span class="soft">{place === 0 ? `${version.by} · ${say.now}` : version.by}</span>
               <p class="soft">{changesIn(version)}</p>
             </div>

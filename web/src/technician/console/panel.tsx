@@ -145,6 +145,7 @@ function Frames({ frames }: { frames: readonly ProtocolFrame[] }) {
     <ol
       ref={list}
       class="console-frames"
+      lang="en"
       tabIndex={0}
       aria-label={say.list}
       onScroll={({ currentTarget: box }) => {

@@ -73,7 +73,7 @@ function VersionList({ versions }: { versions: Versions | null }) {
     ...versions.libraries.map(({ name, version }) => [name, version] as const),
   ] as const;
   return (
-    <section class="diagnostics-versions" aria-label={say.versions}>
+    <section class="diagnostics-versions">
       <h3>{say.versions}</h3>
       <dl class="list">
         {lines.map(([name, value]) => (

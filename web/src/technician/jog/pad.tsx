@@ -1,5 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { JogAxis } from "@/api/wire";
+import { formatNumber } from "@/format";
+import { toldOnBench } from "../language/told";
 import { say } from "../words";
 import { FRAMES, sameWay, wayOfKey } from "./axes";
 import type { Direction, Frame, Way } from "./axes";
@@ -39,6 +41,7 @@ export function JogPad() {
   return (
     <section
       ref={box}
+      id="jog"
       class="card jog"
       tabIndex={0}
       aria-label={say.jog.title}
@@ -82,7 +85,7 @@ function Choices() {
         label={say.jog.amount}
         options={STEPS_MM}
         chosen={step.value}
-        show={(each) => (each === "hold" ? say.jog.hold : String(each))}
+        show={(each) => (each === "hold" ? say.jog.hold : formatNumber(each, each < 1 ? 1 : 0))}
         choose={(each) => {
           step.value = each;
         }}
@@ -191,10 +194,11 @@ function JogButton({ way }: { way: Way }) {
 function JogNote() {
   const found = trouble.value;
   const ready = step.value === "hold" ? say.jog.ready : say.jog.readyStep;
+  const told = found === null ? null : toldOnBench(found);
   const words = hindrance.value ?? (onlyOut.value ? say.jog.onlyOut : ready);
   return (
     <div class="jog-note" role="status" data-trouble={found !== null}>
-      <p>{found === null ? words : `${found.title}. ${found.detail} ${found.remedy}`}</p>
+      <p>{told === null ? words : `${told.title}. ${told.detail} ${told.remedy}`}</p>
     </div>
   );
 }

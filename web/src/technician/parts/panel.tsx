@@ -1,4 +1,5 @@
-import { useSignal } from "@preact/signals";
+import { useSignal, useSignalEffect } from "@preact/signals";
+import type { ReadonlySignal } from "@preact/signals";
 import type { ComponentType } from "preact";
 
 interface PanelProps {
@@ -7,16 +8,25 @@ interface PanelProps {
   readonly hint: string;
   /** Made when the panel is opened, gone when it is closed. */
   readonly body: ComponentType;
+  /** Opens by itself whenever this comes true. */
+  readonly wanted?: ReadonlySignal<boolean>;
+  /** Hears when it is opened or closed. */
+  readonly onToggled?: (open: boolean) => void;
 }
 
 /** A card that does nothing, and loads nothing, before it is opened. */
-export function Panel({ title, hint, body: Body }: PanelProps) {
+export function Panel({ title, hint, body: Body, wanted, onToggled }: PanelProps) {
   const open = useSignal(false);
+  useSignalEffect(() => {
+    if (wanted?.value === true) open.value = true;
+  });
   return (
     <details
       class="card panel"
+      open={open.value}
       onToggle={(event) => {
         open.value = event.currentTarget.open;
+        onToggled?.(open.value);
       }}
     >
       <summary>

@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type uPlot from "uplot";
+import { language } from "@/language/language";
 import { store } from "@/live/page";
 import { say } from "../words";
 import { empty, record, SPAN_S } from "./history";
@@ -9,16 +10,16 @@ import type { Columns } from "./history";
 type Curve = Exclude<keyof Columns, "t_s">;
 
 interface PlotKind {
-  readonly title: string;
+  readonly title: "joints" | "errors" | "force";
   readonly curves: readonly (readonly [Curve, string])[];
   /** The axis shows at least this much, so that noise does not fill it. */
   readonly span: number;
 }
 
 const PLOTS: readonly PlotKind[] = [
-  { title: say.plots.joints, curves: [["rho1", "ρ1"], ["rho2", "ρ2"], ["rho3", "ρ3"]], span: 10 },
-  { title: say.plots.errors, curves: [["error1", "ρ1"], ["error2", "ρ2"], ["error3", "ρ3"]], span: 0.2 },
-  { title: say.plots.force, curves: [["force", "F"]], span: 10 },
+  { title: "joints", curves: [["rho1", "ρ1"], ["rho2", "ρ2"], ["rho3", "ρ3"]], span: 10 },
+  { title: "errors", curves: [["error1", "ρ1"], ["error2", "ρ2"], ["error3", "ρ3"]], span: 0.2 },
+  { title: "force", curves: [["force", "F"]], span: 10 },
 ];
 
 const HEIGHT_PX = 150;
@@ -28,19 +29,20 @@ export function Plots() {
   const still = useSignal(false);
   const place = useRef<HTMLDivElement>(null);
   const loaded = useSignal(false);
+  const columns = useRef(empty());
   useEffect(() => {
     let end: (() => void) | null = null;
     let gone = false;
     void import("uplot").then(({ default: Plot }) => {
       if (gone || place.current === null) return;
       loaded.value = true;
-      end = draw(Plot, place.current, still);
+      end = draw(Plot, place.current, columns.current, still);
     });
     return () => {
       gone = true;
       end?.();
     };
-  }, []);
+  }, [language.value]);
   return (
     <section class="card plots">
       <div class="card-head">
@@ -63,8 +65,12 @@ export function Plots() {
 }
 
 /** Draws all plots into an element and keeps them going; returns how to end it. */
-function draw(Plot: typeof uPlot, place: HTMLElement, still: { readonly value: boolean }): () => void {
-  const columns = empty();
+function draw(
+  Plot: typeof uPlot,
+  place: HTMLElement,
+  columns: Columns,
+  still: { readonly value: boolean },
+): () => void {
   const plots = PLOTS.map((kind) => new Plot(optionsOf(kind, place), dataOf(columns, kind), place));
   let asked = 0;
   const show = (): void => {
@@ -98,7 +104,7 @@ function optionsOf({ title, curves, span }: PlotKind, place: HTMLElement): uPlot
   const colours = [colour("--busy"), colour("--good"), colour("--ask")];
   const axis = { stroke: colour("--soft"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false } };
   return {
-    title,
+    title: say.plots[title],
     width: place.clientWidth,
     height: HEIGHT_PX,
     cursor: { drag: { x: false, y: false } },

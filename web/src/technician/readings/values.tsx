@@ -1,9 +1,12 @@
 import { useComputed } from "@preact/signals";
 import type { Robot } from "@/api/wire";
+import { formatNumber } from "@/format";
 import { store } from "@/live/page";
 import { say } from "../words";
 
 const JOINTS = ["rho1", "rho2", "rho3"] as const;
+/** Never a zero with a minus. */
+const ROUNDED_TO_ZERO_MM = 0.005;
 type Joint = (typeof JOINTS)[number];
 
 /** Commanded and measured joints side by side, the plug tip and the force. */
@@ -66,7 +69,7 @@ function textOf(show: (robot: Robot) => string): string {
   return robot === undefined ? say.values.unknown : show(robot);
 }
 
-const millimetres = (value: number | undefined): string => value?.toFixed(2) ?? say.values.unknown;
+const millimetres = (value: number | undefined): string => value === undefined ? say.values.unknown : formatNumber(value, 2);
 
 /** Measured less commanded [mm]; null while one of them is unknown. */
 export function followingError(robot: Robot, joint: Joint): number | null {
@@ -78,15 +81,14 @@ export function followingError(robot: Robot, joint: Joint): number | null {
 function errorOf(robot: Robot, joint: Joint): string {
   const error = followingError(robot, joint);
   if (error === null) return say.values.unknown;
-  const text = error.toFixed(2);
-  return text === "-0.00" ? "0.00" : text;
+  return formatNumber(Math.abs(error) < ROUNDED_TO_ZERO_MM ? 0 : error, 2);
 }
 
 function tipOf({ measured }: Robot): string {
   if (measured?.tip == null) return say.values.unknown;
   const { x_mm, y_mm, z_mm } = measured.tip;
-  return `${x_mm.toFixed(2)} / ${y_mm.toFixed(2)} / ${z_mm.toFixed(2)} mm`;
+  return `${[x_mm, y_mm, z_mm].map((each) => formatNumber(each, 2)).join(" / ")} mm`;
 }
 
 const forceOf = ({ measured }: Robot): string =>
-  measured === null ? say.values.unknown : `${measured.force_n.toFixed(1)} N`;
+  measured === null ? say.values.unknown : `${formatNumber(measured.force_n, 1)} N`;

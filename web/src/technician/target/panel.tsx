@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { useCallback, useEffect } from "preact/hooks";
 import type { MoveTarget } from "@/api/wire";
+import { formatNumber } from "@/format";
 import { store } from "@/live/page";
 import { releaseWithTheHand } from "../jog/dead-man";
 import { hindrance, onlyOut, speed_mm_s } from "../jog/jog";
@@ -62,7 +63,7 @@ function PlaceForm({ disabled }: { disabled: boolean }) {
   const wrong = useSignal(false);
   const submit = (event: Event): void => {
     event.preventDefault();
-    const place = { x_mm: Number.parseFloat(x.value), y_mm: Number.parseFloat(y.value) };
+    const place = { x_mm: numberIn(x.value), y_mm: numberIn(y.value) };
     wrong.value = !Number.isFinite(place.x_mm) || !Number.isFinite(place.y_mm);
     if (!wrong.value) void choose(place);
   };
@@ -95,6 +96,9 @@ function PlaceForm({ disabled }: { disabled: boolean }) {
   );
 }
 
+/** A number with the decimal comma of the reader's country, or a point. */
+const numberIn = (text: string): number => Number.parseFloat(text.replace(",", "."));
+
 /** What would happen, and the one button that lets it happen. */
 function Preview({ chosen }: { chosen: MoveTarget }) {
   const held = grip.held.value !== null;
@@ -103,8 +107,8 @@ function Preview({ chosen }: { chosen: MoveTarget }) {
       <h3>{say.preview(chosen.tip.x_mm, chosen.tip.y_mm)}</h3>
       <p class="soft">{say.checked}</p>
       <dl class="target-figures">
-        <Figure name={say.way} value={`${chosen.distance_mm.toFixed(1)} mm`} />
-        <Figure name={say.time} value={`${chosen.duration_s.toFixed(1)} s`} />
+        <Figure name={say.way} value={`${formatNumber(chosen.distance_mm, 1)} mm`} />
+        <Figure name={say.time} value={`${formatNumber(chosen.duration_s, 1)} s`} />
         <Figure name={say.speed} value={`${String(speed_mm_s.value)} mm/s`} />
       </dl>
       <Forces chosen={chosen} />

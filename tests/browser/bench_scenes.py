@@ -1,0 +1,186 @@
+"""What the panels of the technician's page are shown, and how each is opened."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from playwright.sync_api import Page
+
+from server.calibration.grade import Grade
+from server.schema.accuracy import AccuracyCheck, AccuracyCheckPage, CheckedPlace
+from server.schema.calibrations import Calibration, CalibrationDetail, LookRecord
+from server.schema.live import Live
+from server.schema.problem import Problem
+from server.schema.routines import CalibrationNow, Routine, RoutineLook
+from tests.browser.scenes import SCENES
+
+Json = Any
+_OPENAPI = Path(__file__).resolve().parents[2] / "web" / "openapi.json"
+_UNSEEN = (
+    "The length of the left leg and the length of the right leg: the looks say little about that, "
+    "and what was known before is kept."
+)
+_REMARK = (
+    "Places that were held back are missed by 0.12 mm; a good robot manages 0.06 mm. Tighten the "
+    "belts and repeat."
+)
+
+
+@cache
+def _examples() -> dict[str, Json]:
+    """Published answers to GET, by the path."""
+    paths = json.loads(_OPENAPI.read_text(encoding="utf-8"))["paths"]
+    content = {
+        path: methods["get"]["responses"]["200"].get("content", {}).get("application/json", {})
+        for path, methods in paths.items()
+        if "get" in methods
+    }
+    return {path: found["example"] for path, found in content.items() if "example" in found}
+
+
+def _example(path: str) -> Json:
+    return _examples()[f"/api/v1/{path}"]
+
+
+def _detail() -> CalibrationDetail:
+    """A version that is usable, with a look at each of 25 places."""
+    example = CalibrationDetail.model_validate(_example("calibrations/{calibration_id}"))
+    assert example.evidence is not None
+    rng = np.random.default_rng(7)
+    (look,) = example.evidence.looks
+    looks = [
+        LookRecord(
+            **{
+                **dict(look),
+                "rho1_mm": float(rho[0]),
+                "rho2_mm": float(rho[1]),
+                "residual_mm": tuple(rng.normal(0.0, 0.05, 3).tolist()),
+                "weight": 0.2 if number == 11 else 1.0,
+            }
+        )
+        for number, rho in enumerate(rng.uniform(60.0, 360.0, (25, 2)))
+    ]
+    evidence = example.evidence.model_copy(update={"looks": looks, "unseen": [_UNSEEN]})
+    changes = {"evidence": evidence, "grade": Grade.USABLE, "remarks": [_REMARK], "in_force": False}
+    return example.model_copy(update=changes)
+
+
+def _checks() -> AccuracyCheckPage:
+    """Two checks at nine places, the newer one better."""
+    (example,) = AccuracyCheckPage.model_validate(_example("calibrations/checks")).items
+    rng = np.random.default_rng(7)
+
+    def place(x_mm: float, y_mm: float) -> CheckedPlace:
+        sides = np.array([[0.0, -0.03]] * 3 + [[0.0, 0.03]] * 3) + rng.normal(0.01, 0.01, (6, 2))
+        attained = [(x_mm + float(x), y_mm + float(y)) for x, y in sides]
+        return CheckedPlace(
+            x_mm=x_mm, y_mm=y_mm, accuracy_mm=0.02, repeatability_mm=0.09,
+            direction_variation_mm=0.06, attained_mm=attained,
+        )  # fmt: skip
+
+    places = [place(x, y) for y in (240.0, 335.0, 430.0) for x in (460.0, 650.0, 840.0)]
+    new = AccuracyCheck(**{**dict(example), "places": places})
+    before = {"id": "before", "calibration_id": None, "accuracy_mm": 2.3, "repeatability_mm": 0.11}
+    return AccuracyCheckPage(items=[new, new.model_copy(update=before)])
+
+
+def answer(path: str) -> Json:
+    """What the server would say to a GET; None where nothing is published."""
+    if path == "calibrations/checks":
+        return _checks().model_dump(mode="json")
+    if path == "calibrations":
+        older = Calibration.model_validate(_example("calibrations")["items"][0])
+        newest = Calibration(**{name: getattr(_detail(), name) for name in Calibration.model_fields})
+        newest = newest.model_copy(update={"id": "01957a40-0000-7000-8000-000000000002"})
+        newest = newest.model_copy(update={"version": 4})
+        page = [one.model_dump(mode="json") for one in (newest, older)]
+        return {"items": page, "next_cursor": None}
+    if path.startswith("calibrations/"):
+        return _detail().model_dump(mode="json")
+    return _examples().get(f"/api/v1/{path}")
+
+
+def picture() -> bytes:
+    """A picture of the camera's size, with nothing in it."""
+    grey = np.full((1232, 1640), 96, np.uint8)
+    return bytes(cv2.imencode(".jpg", grey)[1])
+
+
+def _calibrating(**changes: object) -> Live:
+    now = CalibrationNow.model_validate(_example("calibrations/now"))
+    assert now.routine is not None
+    rng = np.random.default_rng(3)
+    looks = [
+        RoutineLook(x_mm=float(x), y_mm=float(y), seen=number != 5)
+        for number, (x, y) in enumerate(rng.uniform((450, 220), (850, 440), (12, 2)))
+    ]
+    running = {
+        "state": "running", "doing": "Looking at the label from many places.", "done": 12,
+        "looks": looks, "calibration_id": None,
+    }  # fmt: skip
+    routine = Routine(**{**dict(now.routine), **running, **changes})
+    calibration = now.model_copy(update={"routine": routine})
+    return SCENES["ready"].model_copy(update={"calibration": calibration})
+
+
+_LOST = Problem(
+    type="urn:plugpilot:problem:calibration_label_lost",
+    title="The label was seen too seldom",
+    status=409,
+    code="calibration_label_lost",
+    detail="From the first place the label is not to be seen any more.",
+    remedy="Look for glare, dirt and things in front of the label, then go on.",
+)
+_MOVED = _LOST.model_copy(
+    update={"code": "calibration_label_moved", "context": {"moved_mm": 1.24}}
+)
+
+CALIBRATIONS: Mapping[str, Live] = {
+    "calibration-running": _calibrating(),
+    "calibration-interrupted": _calibrating(state="interrupted", problem=_LOST),
+    "calibration-failed": _calibrating(state="failed", problem=_MOVED),
+    "calibration-result": _calibrating(state="finished", calibration_id="new", done=25),
+    "calibration-checked": _calibrating(
+        kind="check", state="finished", check_id=_example("calibrations/checks")["items"][0]["id"]
+    ),
+}
+
+
+def open_panel(page: Page, title: str) -> None:
+    """Open a panel, unless it has opened by itself."""
+    panel = page.locator("details.panel").nth(PANELS.index(title))
+    panel.evaluate("panel => { panel.open = true; }")
+
+
+PANELS = ("calibration", "target", "console", "camera", "configuration", "diagnostics")
+"""The panels in the order of the page."""
+
+
+def _calibration(page: Page) -> None:
+    open_panel(page, "calibration")
+    page.locator(".calibration :is(.calibration-starts, .calibration-actions)").wait_for()
+
+
+def _guide(page: Page) -> None:
+    _calibration(page)
+    page.locator(".calibration-start").first.click()
+    page.locator(".calibration-guide").wait_for()
+
+
+def _to_panel(title: str) -> Callable[[Page], None]:
+    return lambda page: open_panel(page, title)
+
+
+OPENED: Mapping[str, tuple[Live, Callable[[Page], None]]] = {
+    "calibration": (SCENES["ready"], _calibration),
+    "calibration-guide": (SCENES["ready"], _guide),
+    **{name: (live, _calibration) for name, live in CALIBRATIONS.items()},
+    **{title: (SCENES["ready"], _to_panel(title)) for title in PANELS[1:]},
+}
+"""What is opened on the technician's page, each with the state it is opened in."""

@@ -1,0 +1,104 @@
+"""Every panel of the technician's page opened: readable for all, in four languages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Literal
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.axe import violations
+from tests.browser.bench_scenes import CALIBRATIONS, OPENED, PANELS, open_panel
+from tests.browser.chromium import PHONE
+from tests.browser.languages import LOCALES, overflows
+from tests.browser.scenes import SCENES
+from tests.browser.stage import Stage
+
+NARROW_PX = 320
+
+
+@contextmanager
+def _bench(
+    browser: Browser,
+    address: str,
+    *,
+    width: int = PHONE["width"],
+    scheme: Literal["light", "dark"] = "light",
+    locale: str = "en-GB",
+) -> Iterator[Page]:
+    """The page on a phone; it may not meet a single script error."""
+    context = browser.new_context(
+        viewport={"width": width, "height": PHONE["height"]},
+        color_scheme=scheme,
+        locale=locale,
+        reduced_motion="reduce",
+    )
+    page = context.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(f"{address}/technician")
+    page.locator(".link[data-link=live]").wait_for()
+    yield page
+    context.close()
+    assert errors == []
+
+
+def _open_all(page: Page) -> None:
+    for title in PANELS:
+        open_panel(page, title)
+    page.locator(".calibration :is(.calibration-starts, .calibration-actions)").wait_for()
+    page.locator(".config-form").wait_for()
+    page.locator(".console-frames strong").first.wait_for()
+    page.locator(".camera-overlay").wait_for()
+    page.locator(".diagnostics-versions").wait_for()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_panel_is_accessible(
+    browser: Browser, address: str, stage: Stage, scheme: Literal["light", "dark"]
+) -> None:
+    stage.live = SCENES["ready"]
+    with _bench(browser, address, scheme=scheme) as page:
+        _open_all(page)
+        assert violations(page) == []
+        page.locator(".calibration-start").first.click()
+        page.locator(".calibration-guide").wait_for()
+        assert violations(page) == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scene", CALIBRATIONS)
+def test_every_state_of_a_calibration_is_accessible(
+    browser: Browser, address: str, stage: Stage, scene: str, scheme: Literal["light", "dark"]
+) -> None:
+    stage.live, opened = OPENED[scene]
+    with _bench(browser, address, scheme=scheme) as page:
+        opened(page)
+        assert violations(page) == []
+        for target in page.locator(".calibration button").all():
+            box = target.bounding_box()
+            assert box is not None
+            assert box["height"] >= 44
+
+
+@pytest.mark.parametrize("language", LOCALES)
+def test_nothing_runs_over_in_any_language(
+    browser: Browser, address: str, stage: Stage, language: str
+) -> None:
+    stage.live = SCENES["ready"]
+    troubles: dict[str, list[str]] = {}
+    with _bench(browser, address, width=NARROW_PX, locale=LOCALES[language]) as page:
+        assert page.evaluate("document.documentElement.lang") == language
+        _open_all(page)
+        troubles["all panels"] = overflows(page)
+        for name, live in CALIBRATIONS.items():
+            stage.live = live
+            expect(page.locator(".calibration")).to_have_count(1)
+            page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
+            page.reload()
+            page.locator(".link[data-link=live]").wait_for()
+            OPENED[name][1](page)
+            troubles[name] = overflows(page)
+    assert {name: found for name, found in troubles.items() if found} == {}

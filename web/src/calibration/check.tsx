@@ -1,0 +1,72 @@
+import { formatDate, formatDuration, formatNumber } from "@/format";
+import { checks, close } from "./desk";
+import { BeforeAfter } from "./plots/before-after";
+import { NinePlaces } from "./plots/nine-places";
+import type { AccuracyCheck } from "./types";
+import { say } from "./words";
+
+interface Props {
+  readonly id: string;
+  readonly title?: string;
+  readonly onClose?: () => void;
+}
+
+const FIGURES = [
+  ["accuracy", "accuracy_mm"],
+  ["repeatability", "repeatability_mm"],
+  ["direction", "direction_variation_mm"],
+] as const;
+
+/** A nine-point check in the terms of ISO 9283, beside the one before. */
+export function CheckView({ id, title, onClose = close }: Props) {
+  const found = checks.value ?? [];
+  const number = found.findIndex((each) => each.id === id);
+  const check = found[number];
+  return (
+    <section class="calibration-check">
+      {check === undefined ? (
+        <p class="soft">{say.loading}</p>
+      ) : (
+        <Check check={check} before={found[number + 1]} title={title} />
+      )}
+      <div class="calibration-actions">
+        <button type="button" class="button" onClick={onClose}>
+          {say.ended.close}
+        </button>
+      </div>
+    </section>
+  );
+}
+
+interface CheckProps {
+  readonly check: AccuracyCheck;
+  readonly before: AccuracyCheck | undefined;
+  readonly title: string | undefined;
+}
+
+function Check({ check, before, title }: CheckProps) {
+  const { places, left_out, made_at, made_by, duration_s, calibration_id } = check;
+  return (
+    <>
+      <h3>{title ?? `${say.checks.title}, ${formatDate(made_at)}`}</h3>
+      <p>
+        {say.checks.worst}: <strong>{`${formatNumber(check.accuracy_mm, 2)} mm`}</strong>,{" "}
+        {calibration_id === null ? say.checks.asDrawn : say.checks.withVersion}.
+      </p>
+      {FIGURES.map(([name, key]) => (
+        <BeforeAfter
+          key={name}
+          title={say.checks[name]}
+          unit="mm"
+          before={before?.[key] ?? null}
+          after={check[key]}
+          words={[say.checks.before, say.checks.now]}
+        />
+      ))}
+      <NinePlaces places={places} />
+      <p class="soft small">
+        {`${say.checks.places(places.length, left_out)} · ${say.result.madeBy(made_by, formatDate(made_at))} · ${formatDuration(duration_s)}`}
+      </p>
+    </>
+  );
+}

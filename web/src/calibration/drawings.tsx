@@ -1,0 +1,64 @@
+/** Small drawings of what is to be prepared: the robot on its wall, the car, the label. */
+import type { ComponentChildren } from "preact";
+
+export type DrawingName = "looks" | "mated" | "nine";
+
+const DRAWINGS: Readonly<Record<DrawingName, ComponentChildren>> = {
+  // The label in the middle, seen from many places.
+  looks: (
+    <>
+      <Rail />
+      <path class="thin" d="M22 44 36 56M44 36v18M66 44 52 56M26 60h8M62 60h-8M44 78v-8" />
+      <g class="dots">
+        <circle cx="19" cy="41" r="3" />
+        <circle cx="44" cy="32" r="3" />
+        <circle cx="69" cy="41" r="3" />
+        <circle cx="22" cy="60" r="3" />
+        <circle cx="66" cy="60" r="3" />
+        <circle cx="44" cy="81" r="3" />
+      </g>
+      <Label x={38} y={56} />
+    </>
+  ),
+  // The plug all the way in the socket, the label beside it.
+  mated: (
+    <>
+      <path class="car" d="M52 14h18q12 0 12 12v44q0 12-12 12H52z" />
+      <path class="plug" d="M6 40h24v-6h26v24H30v-6H6z" />
+      <path class="thin" d="M38 72H14m8-6-8 6 8 6" />
+      <Label x={62} y={20} />
+    </>
+  ),
+  // Nine places, each from below and from above.
+  nine: (
+    <>
+      <Rail />
+      <g class="dots">
+        {[20, 44, 68].flatMap((x) => [36, 56, 76].map((y) => <circle key={`${String(x)} ${String(y)}`} cx={x} cy={y} r="3" />))}
+      </g>
+      <path class="thin" d="M32 82V66m-4 5 4-5 4 5M56 30v16m-4-5 4 5 4-5" />
+    </>
+  ),
+};
+
+function Rail() {
+  return <path class="rail" d="M8 14h72M20 10v8M68 10v8" />;
+}
+
+function Label({ x, y }: { x: number; y: number }) {
+  return (
+    <g class="label" transform={`translate(${String(x)} ${String(y)})`}>
+      <rect width="12" height="12" rx="1.5" />
+      <path d="M2 2h3v3H2zM7 2h3v3H7zM2 7h3v3H2zM7 7h1v1H7zM9 9h1v1H9z" />
+    </g>
+  );
+}
+
+/** Says nothing that the words beside it do not. */
+export function Drawing({ name }: { name: DrawingName }) {
+  return (
+    <svg class="drawing" viewBox="0 0 88 92" aria-hidden="true">
+      {DRAWINGS[name]}
+    </svg>
+  );
+}

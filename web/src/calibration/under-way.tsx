@@ -1,0 +1,55 @@
+import { may } from "@/access/session";
+import { formatDate, formatDuration } from "@/format";
+import { TroubleWords } from "@/technician/parts/trouble";
+import { busy, cancel, resume } from "./desk";
+import { useTimeLeft } from "./pace";
+import { CameraSwitch } from "./picture";
+import { LookMap } from "./plots/look-map";
+import { ROUTINES } from "./routines";
+import { doingOf } from "./translated";
+import type { Routine } from "./types";
+import { say } from "./words";
+
+const ROUND_S = 5;
+
+/** How far the routine is. It can be ended at any time, and goes on where it was interrupted. */
+export function UnderWay({ routine }: { routine: Routine }) {
+  const { kind, done, looks, begun_by, begun_at, problem, state } = routine;
+  const total = routine.total || ROUTINES[kind].looks;
+  const left_s = Math.ceil(useTimeLeft(routine) / ROUND_S) * ROUND_S;
+  const interrupted = state === "interrupted";
+  const name = say.routines[kind].name;
+  return (
+    <section class="calibration-run" data-tone={interrupted ? "ask" : "busy"}>
+      <h3>{name}</h3>
+      <p role="status">
+        <strong>{interrupted ? say.underWay.interrupted : doingOf(routine.doing)}</strong>
+      </p>
+      <progress max={total} value={Math.min(done, total)} aria-label={name} />
+      <p class="calibration-pace">
+        <span>{say.underWay.place(done, total)}</span>
+        {!interrupted && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
+      </p>
+      {problem !== null && <TroubleWords trouble={problem} />}
+      {interrupted && !ROUTINES[kind].plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
+      {looks.length > 1 && !ROUTINES[kind].plugIn && <LookMap looks={looks} />}
+      <CameraSwitch />
+      <p class="soft small">{say.underWay.by(begun_by, formatDate(begun_at))}</p>
+      <div class="calibration-actions">
+        {interrupted && (
+          <button
+            type="button"
+            class="button primary"
+            disabled={busy.value || !may("service")}
+            onClick={() => void resume()}
+          >
+            {say.underWay.resume}
+          </button>
+        )}
+        <button type="button" class="button" disabled={busy.value || !may("service")} onClick={() => void cancel()}>
+          {busy.value ? say.underWay.ending : say.underWay.end}
+        </button>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,147 @@
+import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { may } from "@/access/session";
+import { formatDate, formatDuration, formatNumber } from "@/format";
+import { activate, busy, close, edition, open, putAway, readVersion, rollBack, trouble, unread } from "./desk";
+import { Numbers } from "./numbers";
+import { Chips, nameOf, unitOf } from "./overview";
+import { BeforeAfter } from "./plots/before-after";
+import { Residuals } from "./plots/residuals";
+import { remarkOf, unseenOf } from "./translated";
+import type { CalibrationDetail } from "./types";
+import { say } from "./words";
+
+interface Props {
+  readonly id: string;
+  /** Instead of the name of what was calibrated. */
+  readonly title?: string;
+  readonly onClose?: () => void;
+}
+
+/** One version: its verdict in words, before and after, what it rests on, and using it or not. */
+export function VersionView({ id, title, onClose = close }: Props) {
+  const version = useSignal<CalibrationDetail | null>(null);
+  const current = edition.value;
+  useEffect(() => {
+    void readVersion(id).then((found) => {
+      if (found !== null) version.value = found;
+    });
+  }, [id, current]);
+  const shown = version.value;
+  return (
+    <section class="calibration-version">
+      {shown === null ? <p class="soft">{say.loading}</p> : <Version version={shown} title={title} />}
+      <div class="calibration-actions">
+        {shown !== null && <Use version={shown} />}
+        <button type="button" class="button" onClick={onClose}>
+          {closing(shown)}
+        </button>
+      </div>
+    </section>
+  );
+}
+
+/** What nobody uses yet is discarded; everything else is just closed. */
+function closing(shown: CalibrationDetail | null): string {
+  const fresh = unread.value?.calibration_id === shown?.id;
+  return shown !== null && fresh && !shown.in_force ? say.result.discard : say.ended.close;
+}
+
+function Version({ version, title }: { version: CalibrationDetail; title: string | undefined }) {
+  const { grade, in_force, error, error_in_use, made_by, made_at, remarks, evidence, values, kind } = version;
+  const unit = unitOf(version);
+  return (
+    <>
+      <header>
+        <h3>{title ?? `${nameOf(version)}, ${say.numbered(version.version)}`}</h3>
+        <Chips version={version} />
+      </header>
+      <p>
+        <strong>{say.result.verdicts[grade]}</strong> {in_force ? say.result.inUse : say.result.unused}
+      </p>
+      {error !== null && error_in_use !== null && (
+        <BeforeAfter title={say.result.compared[kind]} unit={unit} before={error_in_use} after={afterOf(version)} />
+      )}
+      {kind === "socket" && error !== null && (
+        <p class="soft small">{`${say.result.moved}: ${formatNumber(error, 2)} mm`}</p>
+      )}
+      <Sentences title={say.result.remarks} sentences={remarks.map(remarkOf)} />
+      {evidence !== null && values.kind === "robot" && <Residuals evidence={evidence} values={values} />}
+      {evidence !== null && <Sentences title={say.result.unseen} sentences={evidence.unseen.map(unseenOf)} />}
+      <Numbers version={version} />
+      <p class="soft small">
+        {say.result.madeBy(made_by, formatDate(made_at))}
+        {evidence !== null && ` · ${say.result.looks(evidence.looks.length, formatDuration(evidence.duration_s))}`}
+      </p>
+    </>
+  );
+}
+
+/** What the new one misses; a taught socket is what the other one is measured by. */
+const afterOf = ({ kind, error }: CalibrationDetail): number => (kind === "socket" ? 0 : (error ?? 0));
+
+function Sentences({ title, sentences }: { title: string; sentences: readonly string[] }) {
+  if (sentences.length === 0) return null;
+  return (
+    <div class="calibration-remarks">
+      <h4>{title}</h4>
+      <ul>
+        {sentences.map((each) => (
+          <li key={each}>{each}</li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+/** One tap puts it in use, or back; one that is worse is used only by who has read by how much. */
+function Use({ version }: { version: CalibrationDetail }) {
+  const disabled = busy.value || !may("service");
+  if (version.in_force) {
+    return (
+      <button type="button" class="button" disabled={disabled} onClick={() => void rollBack(version)}>
+        {say.inUse.back}
+      </button>
+    );
+  }
+  const warning = warningOf(version);
+  return (
+    <>
+      {warning !== null && (
+        <p class="calibration-worse" role="alert">
+          {warning}
+        </p>
+      )}
+      <button
+        type="button"
+        class={warning === null ? "button primary" : "button"}
+        disabled={disabled}
+        onClick={() => void use(version, warning !== null)}
+      >
+        {warning === null ? say.result.use : say.result.useAnyway}
+      </button>
+    </>
+  );
+}
+
+async function use({ id }: CalibrationDetail, acceptWorse: boolean): Promise<void> {
+  await activate(id, acceptWorse);
+  if (trouble.value !== null || unread.value?.calibration_id !== id) return;
+  putAway();
+  open({ what: "version", id });
+}
+
+/** What speaks against it, with its numbers: as the server has just said, or as was measured. */
+function warningOf(version: CalibrationDetail): string | null {
+  const unit = unitOf(version);
+  const refused = trouble.value?.code === "calibration_worse" ? trouble.value.context : undefined;
+  const mine = numberOr(refused?.[`error_${unit}`], version.error);
+  const other = numberOr(refused?.[`in_force_${unit}`], version.error_in_use);
+  if (mine === null) return say.result.neverMeasured;
+  if (other === null || mine <= other) return null;
+  const [a, b, more] = [mine, other, mine - other].map((each) => formatNumber(each, 3));
+  return say.result.worse(a!, b!, more!, unit);
+}
+
+const numberOr = (value: unknown, otherwise: number | null): number | null =>
+  typeof value === "number" ? value : otherwise;

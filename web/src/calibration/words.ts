@@ -1,0 +1,1 @@
+export { calibration as say } from "@/technician/language/spoken";

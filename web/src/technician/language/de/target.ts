@@ -1,0 +1,30 @@
+import { formatNumber } from "@/format";
+import type { TargetWords } from "../types";
+
+export const target: TargetWords = {
+  title: "Zwilling: zu einer Stelle",
+  hint: "Zeigen, ansehen, halten",
+  frame: "3D-Ansicht des Roboters. Wohin Sie klicken, soll der Stecker.",
+  loading: "Die 3D-Ansicht wird geladen …",
+  behind: "Die 3D-Ansicht folgt dem Roboter gerade nicht.",
+  place: "Stelle der Steckerspitze",
+  x: "x, mm",
+  y: "y, mm",
+  show: "Weg zeigen",
+  showing: "Wird geplant …",
+  ask: "Klicken Sie ins Bild, oder geben Sie eine Stelle an. Zuerst wird der Weg gezeigt; nichts bewegt sich.",
+  beside: "Das ist nicht vor dem Roboter. Klicken Sie dorthin, wo der Stecker hin soll.",
+  notNumbers: "Beide Angaben müssen Zahlen sein.",
+  preview: (x, y) => `Nach x ${formatNumber(x, 1)}, y ${formatNumber(y, 1)} mm`,
+  checked: "Der ganze Weg ist geprüft: Grenzen, Sperrzonen, Kräfte. Nichts bewegt sich, bevor Sie die Taste halten.",
+  way: "Weg",
+  time: "Zeit",
+  speed: "Tempo",
+  force: "Kraft, die größte unterwegs",
+  of: (force, limit) => `${formatNumber(Math.abs(force), 0)} von ${formatNumber(limit, 0)} N`,
+  joints: { rho1: "Links", rho2: "Rechts", rho3: "Schieber" },
+  hold: "Halten, um hinzufahren",
+  moving: "Fährt. Loslassen hält an.",
+  forget: "Verwerfen",
+  arrived: "Der Stecker ist dort.",
+};

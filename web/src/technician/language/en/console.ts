@@ -1,0 +1,22 @@
+/** Every sentence of the protocol console. */
+export const console = {
+  title: "Protocol console",
+  hint: "Frames to and from the board",
+  list: "Frames, the newest at the end",
+  direction: "Direction",
+  directions: { both: "Both", to_board: "To the board", from_board: "From the board" },
+  kind: "Kind",
+  kinds: { all: "All", worth: "Without routine" },
+  search: "Search",
+  errors: "Errors only",
+  pause: "Pause",
+  go: "Go on",
+  clear: "Clear",
+  download: "Download",
+  waiting: "Listening. Nothing that fits has passed yet.",
+  unavailable: "The driver of this board cannot tell what goes over its link.",
+  count: (shown: number, all: number): string => `${String(shown)} of ${String(all)} frames`,
+  paused: "Paused: what passes now is not kept.",
+  lost: (count: number): string => `${String(count)} frames passed too quickly to be read.`,
+  file: "plugpilot-frames.txt",
+};

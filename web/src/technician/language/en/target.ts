@@ -1,0 +1,30 @@
+/** Every sentence of the panel for going to a place. */
+import { formatNumber } from "@/format";
+
+export const target = {
+  title: "Twin: go to a place",
+  hint: "Point, look, then hold",
+  frame: "3D view of the robot. Where you click, the plug shall go.",
+  loading: "The 3D view is being loaded…",
+  behind: "The 3D view does not follow the robot now.",
+  place: "Place of the plug’s tip",
+  x: "x, mm",
+  y: "y, mm",
+  show: "Show the way",
+  showing: "Planning…",
+  ask: "Click in the picture, or give a place. The way is shown first; nothing moves.",
+  beside: "That is not in front of the robot. Click where the plug shall go.",
+  notNumbers: "Both places must be numbers.",
+  preview: (x: number, y: number): string => `To x ${formatNumber(x, 1)}, y ${formatNumber(y, 1)} mm`,
+  checked: "The whole way is checked: limits, keep-outs, forces. Nothing moves before you hold the button.",
+  way: "Way",
+  time: "Time",
+  speed: "Speed",
+  force: "Force, most on the way",
+  of: (force: number, limit: number): string => `${formatNumber(Math.abs(force), 0)} of ${formatNumber(limit, 0)} N`,
+  joints: { rho1: "Left carriage", rho2: "Right carriage", rho3: "Slide" },
+  hold: "Hold to move there",
+  moving: "Moving. Letting go stops.",
+  forget: "Forget it",
+  arrived: "The plug is there.",
+};

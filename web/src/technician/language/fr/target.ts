@@ -1,0 +1,30 @@
+import { formatNumber } from "@/format";
+import type { TargetWords } from "../types";
+
+export const target: TargetWords = {
+  title: "Jumeau\u00a0: aller à un point",
+  hint: "Montrer, regarder, maintenir",
+  frame: "Vue 3D du robot. Là où vous cliquez ira le connecteur.",
+  loading: "La vue 3D se charge…",
+  behind: "La vue 3D ne suit pas le robot en ce moment.",
+  place: "Place du bout du connecteur",
+  x: "x, mm",
+  y: "y, mm",
+  show: "Voir le trajet",
+  showing: "Calcul…",
+  ask: "Cliquez dans l’image, ou indiquez un point. Le trajet est d’abord montré\u00a0; rien ne bouge.",
+  beside: "Ce n’est pas devant le robot. Cliquez là où le connecteur doit aller.",
+  notNumbers: "Les deux doivent être des nombres.",
+  preview: (x, y) => `Vers x ${formatNumber(x, 1)}, y ${formatNumber(y, 1)} mm`,
+  checked: "Tout le trajet est vérifié\u00a0: limites, zones interdites, forces. Rien ne bouge avant que vous mainteniez le bouton.",
+  way: "Trajet",
+  time: "Durée",
+  speed: "Vitesse",
+  force: "Force, la plus grande en route",
+  of: (force, limit) => `${formatNumber(Math.abs(force), 0)} sur ${formatNumber(limit, 0)} N`,
+  joints: { rho1: "Gauche", rho2: "Droite", rho3: "Coulisse" },
+  hold: "Maintenir pour y aller",
+  moving: "En route. Relâcher arrête.",
+  forget: "Oublier",
+  arrived: "Le connecteur y est.",
+};

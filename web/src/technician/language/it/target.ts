@@ -1,0 +1,30 @@
+import { formatNumber } from "@/format";
+import type { TargetWords } from "../types";
+
+export const target: TargetWords = {
+  title: "Gemello: andare a un punto",
+  hint: "Indicare, guardare, tenere",
+  frame: "Vista 3D del robot. Dove si clicca andrà il connettore.",
+  loading: "La vista 3D si carica…",
+  behind: "La vista 3D adesso non segue il robot.",
+  place: "Posto della punta del connettore",
+  x: "x, mm",
+  y: "y, mm",
+  show: "Mostra la via",
+  showing: "Calcolo…",
+  ask: "Cliccare nell’immagine, o indicare un punto. Prima si mostra la via; nulla si muove.",
+  beside: "Non è davanti al robot. Cliccare dove deve andare il connettore.",
+  notNumbers: "Entrambi devono essere numeri.",
+  preview: (x, y) => `A x ${formatNumber(x, 1)}, y ${formatNumber(y, 1)} mm`,
+  checked: "Tutta la via è controllata: limiti, zone vietate, forze. Nulla si muove finché il pulsante non è tenuto premuto.",
+  way: "Via",
+  time: "Tempo",
+  speed: "Velocità",
+  force: "Forza, la più grande lungo la via",
+  of: (force, limit) => `${formatNumber(Math.abs(force), 0)} di ${formatNumber(limit, 0)} N`,
+  joints: { rho1: "Sinistra", rho2: "Destra", rho3: "Slitta" },
+  hold: "Tenere premuto per andarci",
+  moving: "In moto. Lasciare ferma.",
+  forget: "Dimentica",
+  arrived: "Il connettore è lì.",
+};
