@@ -41,6 +41,7 @@ from server.recordings.store import RecordingStore
 from server.services import Services
 from server.simulated_garage import introduce, let_follow, simulated_car
 from server.storage.accuracy_checks import AccuracyCheckStore
+from server.storage.calibration_notes import CalibrationNotes
 from server.storage.daily_backups import DailyBackups
 from server.storage.database import Database
 from server.storage.jobs import JobStore
@@ -136,6 +137,7 @@ async def running(
             settings=settings,
             calendar=calendar,
             checks=accuracy_checks,
+            notes=CalibrationNotes(database),
         )
         runner = JobRunner(
             supervisor=supervisor,
@@ -269,6 +271,7 @@ async def _start(
     stack.push_async_callback(services.charge_point.close)
     await services.supervisor.start(wait=wait_for_robot)
     stack.push_async_callback(services.supervisor.close)
+    await services.routines.start()
     stack.push_async_callback(services.routines.close)
     await services.runner.start()
     stack.push_async_callback(services.runner.close)

@@ -71,10 +71,12 @@ OPERATIONS: Mapping[str, Need] = {
     "getCalibration": Need.READ,
     "getCalibrationNow": Need.READ,
     "listAccuracyChecks": Need.READ,
+    "listRoutines": Need.READ,
     "keepCalibration": Need.SERVICE,
     "activateCalibration": Need.SERVICE,
     "rollBackCalibration": Need.SERVICE,
     "beginCalibration": Need.SERVICE,
+    "confirmCalibration": Need.SERVICE,
     "resumeCalibration": Need.SERVICE,
     "cancelCalibration": Need.SERVICE,
     # arriving cars

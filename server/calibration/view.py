@@ -17,6 +17,9 @@ def calibration_view(calibrations: Calibrations, routines: RoutineDesk) -> Calib
             camera=whole.get(CalibrationKind.CAMERA),
             robot=whole.get(CalibrationKind.ROBOT),
             sockets=[one for one in versions if one.kind is CalibrationKind.SOCKET],
+            switches=whole.get(CalibrationKind.SWITCHES),
+            play=whole.get(CalibrationKind.PLAY),
+            force=whole.get(CalibrationKind.FORCE),
         ),
         routine=routines.shown,
     )

@@ -10,6 +10,7 @@ from server.api.dependencies import ServicesDep
 from server.api.gate import caller_of
 from server.api.pagination import Cursor, Limit, id_in, split_page
 from server.api.problems import problem_responses
+from server.calibration.routines.described import ROUTINES
 from server.calibration.versions.service import NewCalibration
 from server.calibration.view import calibration_view
 from server.schema.accuracy import AccuracyCheckPage
@@ -22,7 +23,13 @@ from server.schema.calibrations import (
     CalibrationPage,
     RollBack,
 )
-from server.schema.routines import CalibrationNow, Routine, RoutineRequest
+from server.schema.routines import (
+    CalibrationNow,
+    Routine,
+    RoutineAnswer,
+    RoutineList,
+    RoutineRequest,
+)
 from server.storage.calibrations import WHOLE_ROBOT
 
 router = APIRouter(prefix="/calibrations", tags=["calibration"])
@@ -87,6 +94,12 @@ async def get_now(services: ServicesDep) -> CalibrationNow:
     return calibration_view(services.calibrations, services.routines)
 
 
+@router.get("/routines", operation_id="listRoutines", summary="List the routines")
+async def list_routines() -> RoutineList:
+    """What can be measured, in the order in which a new robot wants it."""
+    return RoutineList(items=list(ROUTINES))
+
+
 @router.post(
     "/routine",
     status_code=202,
@@ -95,12 +108,23 @@ async def get_now(services: ServicesDep) -> CalibrationNow:
     responses=problem_responses(404, 409, 422, 503),
 )
 async def begin_routine(wanted: RoutineRequest, request: Request, services: ServicesDep) -> Routine:
-    """Measure the robot, from 25 looks at a label that stands still, or teach a socket.
+    """Measure the robot or a part of it, check it, or teach a socket; ``listRoutines`` says what.
 
     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
     """
     return await services.routines.begin(wanted, caller_of(request).name)
+
+
+@router.post(
+    "/routine/confirm",
+    operation_id="confirmCalibration",
+    summary="Answer the routine",
+    responses=problem_responses(409, 422),
+)
+async def confirm_routine(answer: RoutineAnswer, services: ServicesDep) -> Routine:
+    """Confirm that what it asks for is done or, where it asks for one, give a number."""
+    return services.routines.confirm(answer)
 
 
 @router.post(
