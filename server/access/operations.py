@@ -71,6 +71,8 @@ OPERATIONS: Mapping[str, Need] = {
     "getCalibration": Need.READ,
     "getCalibrationNow": Need.READ,
     "listAccuracyChecks": Need.READ,
+    "getAccuracyReport": Need.READ,
+    "getDrift": Need.READ,
     "listRoutines": Need.READ,
     "keepCalibration": Need.SERVICE,
     "activateCalibration": Need.SERVICE,

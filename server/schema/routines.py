@@ -9,6 +9,7 @@ from pydantic import Field
 from server.calibration.grade import Grade
 from server.schema.base import Timestamp, VehicleId, Wire
 from server.schema.calibrations import CalibrationsInForce
+from server.schema.drift import BeltDrift, MaintenanceHint
 from server.schema.problem import Problem
 
 
@@ -224,3 +225,7 @@ class CalibrationNow(Wire):
 
     in_force: CalibrationsInForce = CalibrationsInForce()
     routine: Routine | None = None
+    drift: BeltDrift | None = Field(default=None, description="What jobs have shown of the belts")
+    hints: list[MaintenanceHint] = Field(
+        default_factory=list, description="What wears, or has moved; empty: all is well"
+    )

@@ -13,7 +13,7 @@ from twin.geometry import RobotGeometry
 
 Array = NDArray[np.float64]
 
-PROVEN_MM = 0.2
+PROVEN_MM = 0.12
 """What a calibration is good for at least, and what it must say of itself to be worth less."""
 SURELY = 3.0
 MISFITS = 3

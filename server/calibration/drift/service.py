@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from server.calibration.versions.service import Calibrations, NewCalibration
 from server.calibration.versions.values import rotation_vector
 from server.config.settings import Settings
 from server.control.errors import ControlError
+from server.control.plug_guard import HELD
 from server.control.supervisor import Supervisor
 from server.errors import PlugPilotError
 from server.jobs.plugging.search import further_tries
@@ -82,6 +83,8 @@ class SelfCalibration:
         self._listeners: list[Callable[[], None]] = []
         self._tasks: set[asyncio.Task[None]] = set()
         self._turn = asyncio.Lock()
+        self._pending = True
+        supervisor.listen(self._correct_when_free)
         JobObserver(supervisor, runner, eye, self._job_done)
 
     @property
@@ -132,17 +135,26 @@ class SelfCalibration:
         return self._memory.measured or PlanarAsBuilt.as_drawn(self._supervisor.geometry)
 
     def _job_done(self, job: Job, observed: Observation) -> None:
-        task = asyncio.create_task(self._learn(job, observed), name="self-calibration")
+        self._do(self._take_in(job, observed))
+
+    def _correct_when_free(self) -> None:
+        """As soon as nobody uses the robot and the plug is out; until then it waits."""
+        free = self._supervisor.holder is None and self._supervisor.plug.state not in HELD
+        if self._pending and free and self._correction_is_due:
+            self._pending = False
+            self._do(self._correct())
+
+    def _do(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.create_task(self._in_turn(work), name="self-calibration")
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _learn(self, job: Job, observed: Observation) -> None:
+    async def _in_turn(self, work: Coroutine[None, None, None]) -> None:
         async with self._turn:
             try:
-                await self._take_in(job, observed)
-                await self._correct()
+                await work
             except PlugPilotError as error:
-                _log.warning("a job could not be learnt from: %s", error.detail)
+                _log.warning("self-calibration: %s", error.detail)
         for listener in self._listeners:
             listener()
 
@@ -162,6 +174,8 @@ class SelfCalibration:
         felt = felt.taken(tuple(observed.curve.summary()), self._offset_mm(observed.tries))
         insertions = {**memory.insertions, vehicle_id: felt}
         await self._remember(memory.model_copy(update={"insertions": insertions}))
+        self._pending = True
+        self._correct_when_free()
 
     def _offset_mm(self, tries: int) -> tuple[float, float]:
         """How far beside the measured place the plug went in after so many tries that failed."""
@@ -182,10 +196,15 @@ class SelfCalibration:
             insertions=self._memory.insertions,
         )
 
+    @property
+    def _correction_is_due(self) -> bool:
+        return self._memory.belts.jobs - self._memory.jobs_at_version >= JOBS_BETWEEN
+
     async def _correct(self) -> None:
-        """Put a small correction in force, where it is worth it and nobody uses the robot."""
+        """Put a small correction in force, where it is worth it."""
+        self._begin_anew_if_changed()
         memory = self._memory
-        if memory.belts.jobs - memory.jobs_at_version < JOBS_BETWEEN:
+        if not self._correction_is_due:
             return
         in_use = self._calibrations.in_force.mechanism or self._measured
         wanted = _no_further(in_use, memory.belts.corrected(self._measured))
