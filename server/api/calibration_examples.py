@@ -174,7 +174,7 @@ CALIBRATION_MODELS: dict[str, Json] = {
     "Routine": _ROUTINE,
     "RoutineAnswer": {"code": "belts_left", "value": 300.7},
     "RoutineList": {
-        "items": [
+        "routines": [
             {
                 "kind": "play",
                 "title": "Play of the carriages",

@@ -191,7 +191,7 @@ class RoutineDescription(Wire):
 class RoutineList(Wire):
     """All routines, in the order in which a new robot wants them."""
 
-    items: list[RoutineDescription]
+    routines: list[RoutineDescription]
 
 
 class Routine(Wire):

@@ -151,7 +151,7 @@ async def get_drift(services: ServicesDep) -> DriftReport:
 @router.get("/routines", operation_id="listRoutines", summary="List the routines")
 async def list_routines() -> RoutineList:
     """What can be measured, in the order in which a new robot wants it."""
-    return RoutineList(items=list(ROUTINES))
+    return RoutineList(routines=list(ROUTINES))
 
 
 @router.post(

@@ -5129,8 +5129,8 @@ export interface components {
          * @description All routines, in the order in which a new robot wants them.
          */
         readonly RoutineList: {
-            /** Items */
-            readonly items: readonly components["schemas"]["RoutineDescription"][];
+            /** Routines */
+            readonly routines: readonly components["schemas"]["RoutineDescription"][];
         };
         /**
          * RoutineLook
@@ -8177,7 +8177,7 @@ export interface operations {
                 content: {
                     /**
                      * @example {
-                     *       "items": [
+                     *       "routines": [
                      *         {
                      *           "before": [
                      *             "Let the plug hang freely at the robot."

@@ -215,7 +215,7 @@ def test_a_stroke_that_meets_something_ends_gently() -> None:
 
 def test_all_routines_are_described() -> None:
     async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
-        items = (await client.get("calibrations/routines")).json()["items"]
+        items = (await client.get("calibrations/routines")).json()["routines"]
         assert [item["kind"] for item in items][:3] == ["switches", "play", "belts"]
         assert len(items) == 7
         for item in items:
