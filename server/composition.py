@@ -15,7 +15,7 @@ from drivers.errors import UnknownDriverError
 from drivers.registry import SIMULATOR, DeviceRequest, Devices, make_devices
 from drivers.station import StationError
 from server.access import Access
-from server.calibration.routines.desk import RoutineDesk
+from server.calibration.measuring import Measuring
 from server.calibration.versions.service import Calibrations
 from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
@@ -40,7 +40,6 @@ from server.recordings.recorder import Recorder
 from server.recordings.store import RecordingStore
 from server.services import Services
 from server.simulated_garage import introduce, let_follow, simulated_car
-from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.daily_backups import DailyBackups
 from server.storage.database import Database
 from server.storage.jobs import JobStore
@@ -127,16 +126,6 @@ async def running(
             settings.geometry,
             supervisor.telemetry,
         )
-        accuracy_checks = AccuracyCheckStore(database)
-        routines = RoutineDesk(
-            supervisor=supervisor,
-            eye=eye,
-            vehicles=vehicles,
-            calibrations=calibrations,
-            settings=settings,
-            calendar=calendar,
-            checks=accuracy_checks,
-        )
         runner = JobRunner(
             supervisor=supervisor,
             eye=eye,
@@ -146,6 +135,16 @@ async def running(
             settings=settings,
             calendar=calendar,
             as_taught=calibrations.as_taught,
+        )
+        measuring = Measuring.of(
+            database,
+            supervisor=supervisor,
+            eye=eye,
+            runner=runner,
+            vehicles=vehicles,
+            calibrations=calibrations,
+            settings=settings,
+            calendar=calendar,
         )
         integrations = Integrations(database, settings, calendar, speed)
         await integrations.running_settings.start()
@@ -216,8 +215,7 @@ async def running(
             camera=camera,
             live=live,
             calibrations=calibrations,
-            routines=routines,
-            accuracy_checks=accuracy_checks,
+            measuring=measuring,
             divergence=divergence,
             guide=guide,
             recordings=recordings,
@@ -272,7 +270,8 @@ async def _start(
     stack.push_async_callback(services.charge_point.close)
     await services.supervisor.start(wait=wait_for_robot)
     stack.push_async_callback(services.supervisor.close)
-    stack.push_async_callback(services.routines.close)
+    await services.measuring.start()
+    stack.push_async_callback(services.measuring.close)
     await services.runner.start()
     stack.push_async_callback(services.runner.close)
     await services.station.start()

@@ -35,9 +35,10 @@ def show(services: Services) -> None:
         "guidance", lambda: guidance_view(services.guide, services.settings, services.calendar)
     )
     services.guide.listen(lambda: live.changed("guidance"))
-    live.add("calibration", lambda: calibration_view(services.calibrations, services.routines))
+    live.add("calibration", lambda: calibration_view(services.calibrations, services.measuring))
     services.calibrations.listen(lambda: live.changed("calibration", urgent=True))
     services.routines.listen(lambda: live.changed("calibration"))
+    services.self_calibration.listen(lambda: live.changed("calibration"))
     services.divergence.listen(lambda _: live.changed("twin", urgent=True))
 
     shown: list[object] = [None]

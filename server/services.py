@@ -8,6 +8,8 @@ from datetime import datetime
 from drivers.simulator.garage import SimulatedGarage
 from server.access import Access
 from server.adjusting import RunningSettings
+from server.calibration.drift.service import SelfCalibration
+from server.calibration.measuring import Measuring
 from server.calibration.routines.desk import RoutineDesk
 from server.calibration.versions.service import Calibrations
 from server.charge_point import ChargePointService
@@ -54,8 +56,7 @@ class Services:
         camera: Pictures for people.
         live: Pushes what changes.
         calibrations: What is known of this very robot.
-        routines: Measures it.
-        accuracy_checks: How exactly it went where it was sent.
+        measuring: Measures it, on purpose and in jobs.
         divergence: Runs the model beside the robot.
         guide: Tells arriving drivers how far to go.
         recordings: What was recorded of jobs.
@@ -85,8 +86,7 @@ class Services:
     camera: CameraFeed
     live: LiveHub
     calibrations: Calibrations
-    routines: RoutineDesk
-    accuracy_checks: AccuracyCheckStore
+    measuring: Measuring
     divergence: DivergenceWatcher
     guide: Guide
     recordings: RecordingStore
@@ -100,3 +100,18 @@ class Services:
     garage: SimulatedGarage | None
     simulated_car: SimulatedCar | None
     technician: TechnicianTools
+
+    @property
+    def routines(self) -> RoutineDesk:
+        """Measures the robot on purpose."""
+        return self.measuring.routines
+
+    @property
+    def self_calibration(self) -> SelfCalibration:
+        """Learns from jobs how the robot changes."""
+        return self.measuring.drift
+
+    @property
+    def accuracy_checks(self) -> AccuracyCheckStore:
+        """How exactly the robot went where it was sent."""
+        return self.measuring.checks

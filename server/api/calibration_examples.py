@@ -82,7 +82,35 @@ _ROUTINE: dict[str, Json] = {
     "calibration_id": CALIBRATION_ID,
     "check_id": None,
     "problem": None,
+    "asks": None,
+    "verdict": "good",
+    "remarks": [],
+    "figures": [
+        {"code": "left_scale", "label": "Left belt", "value": 1.0024, "sigma": 0.0003, "unit": ""},
+        {"code": "error", "label": "Misses", "value": 0.034, "sigma": None, "unit": "mm"},
+    ],
 }
+_BELTS: dict[str, Json] = {
+    "jobs": 100,
+    "left_percent": 0.18,
+    "left_sigma_percent": 0.025,
+    "right_percent": 0.01,
+    "right_sigma_percent": 0.025,
+    "moved_mm": 0.22,
+    "proven_mm": 0.12,
+    "exceeds": True,
+    "at_bound": False,
+    "refused_in_a_row": 0,
+}
+_HINTS: list[Json] = [
+    {
+        "code": "plug_heavy",
+        "title": "The plug goes in harder than it used to",
+        "text": "At a depth of 36 mm the last 5 insertions took 88 N; 64 to 78 N were usual. Clean "
+        "plug and socket, and look for bent contacts.",
+        "vehicle_id": "zoe",
+    }
+]
 
 CALIBRATION_MODELS: dict[str, Json] = {
     "AccuracyCheckPage": {
@@ -118,11 +146,55 @@ CALIBRATION_MODELS: dict[str, Json] = {
     "CalibrationEntry": {"values": _CAMERA_VALUES, "source": "camera-0003.toml"},
     "CalibrationPage": {"items": [_CALIBRATION], "next_cursor": None},
     "CalibrationNow": {
-        "in_force": {"camera": None, "robot": _CALIBRATION, "sockets": []},
+        "in_force": {
+            "camera": None,
+            "robot": _CALIBRATION,
+            "sockets": [],
+            "switches": None,
+            "play": None,
+            "force": None,
+        },
         "routine": _ROUTINE,
+        "drift": _BELTS,
+        "hints": _HINTS,
+    },
+    "DriftReport": {
+        "belts": _BELTS,
+        "hints": _HINTS,
+        "insertions": [
+            {
+                "vehicle_id": "zoe",
+                "learnt_from": 8,
+                "points": [[32.0, 39.1, 52.4], [36.0, 64.2, 78.0]],
+                "recent": [[32.0, 60.3], [36.0, 88.1]],
+            }
+        ],
     },
     "RollBack": {"kind": "robot"},
     "Routine": _ROUTINE,
+    "RoutineAnswer": {"code": "belts_left", "value": 300.7},
+    "RoutineList": {
+        "routines": [
+            {
+                "kind": "play",
+                "title": "Play of the carriages",
+                "what": "Brings each carriage to the same place from both sides.",
+                "before": ["Let the plug hang freely at the robot."],
+                "needs_label": True,
+                "settings": [
+                    {
+                        "name": "approaches",
+                        "label": "Approaches",
+                        "unit": "",
+                        "least": 3,
+                        "most": 30,
+                        "usual": 4,
+                        "whole": True,
+                    }
+                ],
+            }
+        ]
+    },
 }
 """By the name of the schema."""
 
@@ -141,6 +213,22 @@ CALIBRATION_REQUESTS: dict[str, dict[str, Json]] = {
         "check": {
             "summary": "Check the robot at nine places",
             "value": {"kind": "check", "vehicle_id": "zoe", "approaches": 3},
+        },
+        "switches": {
+            "summary": "Home five times, and look where the robot then stands",
+            "value": {"kind": "switches", "vehicle_id": "zoe", "approaches": 5},
+        },
+        "play": {
+            "summary": "Approach one place from both sides",
+            "value": {"kind": "play", "vehicle_id": "zoe", "approaches": 4},
+        },
+        "belts": {
+            "summary": "Measure with a rule how far both carriages go",
+            "value": {"kind": "belts", "distance_mm": 300, "reading_sigma_mm": 0.1},
+        },
+        "force": {
+            "summary": "Friction of the slide, and its force scale by a spring",
+            "value": {"kind": "force", "strokes": 3, "stroke_mm": 12, "spring_n_mm": 5.0},
         },
         "socket": {
             "summary": "Teach the socket that the plug is in",

@@ -25,11 +25,14 @@ class CalibrationKind(StrEnum):
     CAMERA = "camera"
     ROBOT = "robot"
     SOCKET = "socket"
+    SWITCHES = "switches"
+    PLAY = "play"
+    FORCE = "force"
 
     @property
     def unit(self) -> str:
         """Of its errors."""
-        return "px" if self is CalibrationKind.CAMERA else "mm"
+        return {CalibrationKind.CAMERA: "px", CalibrationKind.FORCE: "N"}.get(self, "mm")
 
 
 class CameraValues(Wire):
@@ -63,9 +66,58 @@ class SocketValues(Wire):
     socket: SocketOffset
 
 
+Spread = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
+Newtons = Annotated[float, Field(ge=-500, le=500, allow_inf_nan=False)]
+
+
+class SwitchesValues(Wire):
+    """How well the limit switches of the carriages repeat.
+
+    The slide's own switch no camera sees: the plug's depth is measured before each insertion.
+    """
+
+    kind: Literal["switches"] = "switches"
+    left_spread_mm: Spread = Field(description="Standard deviation of where it closes")
+    left_sigma_mm: Spread = Field(description="How sure that is")
+    right_spread_mm: Spread
+    right_sigma_mm: Spread
+    approaches: Annotated[int, Field(ge=3, le=1000)]
+
+
+class PlayValues(Wire):
+    """Play of the carriages, and how far each lags behind its set point while it moves."""
+
+    kind: Literal["play"] = "play"
+    left_mm: Millimetres
+    left_sigma_mm: Spread
+    right_mm: Millimetres
+    right_sigma_mm: Spread
+    left_following_mm: Spread = Field(description="Largest distance to the set point, moving")
+    right_following_mm: Spread
+
+
+class ForceValues(Wire):
+    """The slide as its own force gauge. The watch over the plug goes on with the raw force."""
+
+    kind: Literal["force"] = "force"
+    friction_n: Newtons = Field(description="Half of what differs between out and back")
+    friction_sigma_n: Spread
+    offset_n: Newtons = Field(description="Mean of both: what the gauge shows without any force")
+    offset_sigma_n: Spread
+    scale: Annotated[float, Field(ge=0.2, le=5, allow_inf_nan=False)] = Field(
+        1.0, description="Shown force over the true one"
+    )
+    scale_sigma: Spread | None = Field(None, description="Null: the scale was not measured")
+    following_mm: Spread = Field(description="How far the slide lags behind its set point at most")
+
+
 CalibrationValues = Annotated[
-    CameraValues | RobotValues | SocketValues, Field(discriminator="kind")
+    CameraValues | RobotValues | SocketValues | SwitchesValues | PlayValues | ForceValues,
+    Field(discriminator="kind"),
 ]
+
+
+Provenance = Literal["routine", "drift"]
 
 
 class LookRecord(Wire):
@@ -88,6 +140,9 @@ class RobotEvidence(Wire):
     sigma: dict[str, float] = Field(description="Standard deviation of each unknown")
     unseen: list[str] = Field(description="What the looks could not tell, in sentences")
     duration_s: float = Field(ge=0, description="Robot time")
+    provenance: Provenance = Field(
+        default="routine", description="A routine has looked, or jobs have on their way (drift)"
+    )
 
 
 class Calibration(Wire):
@@ -100,7 +155,8 @@ class Calibration(Wire):
     grade: Grade
     remarks: list[str] = Field(description="What keeps it from being better, with what to do")
     error: float | None = Field(
-        description="What it misses on data held back, in mm or (camera) px; null: not measured"
+        description="What it misses on data held back, in mm, (camera) px or (force) N; "
+        "null: not measured"
     )
     error_in_use: float | None = Field(
         description="What the one then in force missed on the same data"
@@ -132,6 +188,9 @@ class CalibrationsInForce(Wire):
     camera: Calibration | None = None
     robot: Calibration | None = None
     sockets: list[Calibration] = Field(default_factory=list, description="Of taught vehicles")
+    switches: Calibration | None = None
+    play: Calibration | None = None
+    force: Calibration | None = None
 
 
 class CalibrationEntry(Wire):

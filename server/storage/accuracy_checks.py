@@ -29,6 +29,15 @@ class AccuracyCheckStore:
 
         await self._database.run(work)
 
+    async def get(self, check_id: str) -> AccuracyCheck | None:
+        """One check, or None."""
+
+        def work(session: Session) -> AccuracyCheck | None:
+            row = session.get(AccuracyCheckRow, check_id)
+            return None if row is None else AccuracyCheck.model_validate(row.content)
+
+        return await self._database.run(work)
+
     async def page(self, *, before: str | None, limit: int) -> list[AccuracyCheck]:
         """Checks, newest first; one more than the limit where there are more."""
 

@@ -57,3 +57,13 @@ class AccuracyCheckRow(Base):
     id: Mapped[str] = mapped_column(String(36), primary_key=True)
     made_at: Mapped[datetime]
     content: Mapped[dict[str, Any]]
+
+
+class CalibrationNoteRow(Base):
+    """What calibration remembers between two starts; the newest of each name replaces the last."""
+
+    __tablename__ = "calibration_notes"
+
+    name: Mapped[str] = mapped_column(String(64), primary_key=True)
+    written_at: Mapped[datetime]
+    content: Mapped[dict[str, Any]]

@@ -13,7 +13,7 @@ _log = logging.getLogger(__name__)
 
 MIGRATIONS = Path(__file__).parent / "migrations"
 
-HEAD = "0005"
+HEAD = "0006"
 """The newest step in migrations/versions. It stands here, too, so that a database that is up to
 date needs no Alembic, whose import takes a Raspberry Pi a second."""
 

@@ -36,6 +36,27 @@ def switch_spread(closed_at_mm: Array) -> Estimate:
     return Estimate(spread_mm, spread_mm / math.sqrt(2 * (len(closed_at_mm) - 1)))
 
 
+def spread_between(groups_mm: Array) -> Estimate:
+    """Standard deviation between groups, without what differs within a group.
+
+    One-way random effects (Searle 1971): with k values in each group, the mean of a group spreads
+    by the variance between the groups plus a k-th of that within them.
+
+    Args:
+        groups_mm: Such as repeated looks after each homing, shape (n, k) [mm].
+
+    Raises:
+        ValueError: there are fewer than three groups, or fewer than two values in each.
+    """
+    _require(groups_mm, 3, "approaches of the switch")
+    _require(groups_mm.T, 2, "looks after each approach")
+    n, k = groups_mm.shape
+    of_means = float(np.var(groups_mm.mean(axis=1), ddof=1))
+    within = float(np.mean(np.var(groups_mm, axis=1, ddof=1)))
+    between_mm = math.sqrt(max(of_means - within / k, 0.0))
+    return Estimate(between_mm, math.sqrt(of_means) / math.sqrt(2 * (n - 1)))
+
+
 def belt_scale(commanded_mm: float, measured_mm: float, reading_sigma_mm: float) -> Estimate:
     """True travel over the commanded one.
 

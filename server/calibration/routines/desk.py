@@ -10,40 +10,38 @@ from typing import Literal
 
 from server.calibration.robot.errors import RobotCalibrationError
 from server.calibration.routines.check_record import check_of
-from server.calibration.routines.check_routine import CheckResult, CheckRoutine
+from server.calibration.routines.check_routine import CheckResult
+from server.calibration.routines.choice import routine_for
 from server.calibration.routines.errors import (
     AxesSwappedError,
     LabelMovedError,
     MotorReversedError,
     NoRoutineError,
+    RoutineLostError,
     RoutineRunningError,
 )
+from server.calibration.routines.figures import figures_of
 from server.calibration.routines.progress import Progress
-from server.calibration.routines.robot_routine import RobotRoutine
-from server.calibration.routines.socket_routine import SocketRoutine
+from server.calibration.routines.routine import AnyRoutine
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.service import HOLDER, Calibrations, NewCalibration
 from server.config.settings import Settings
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
 from server.errors import InternalError, PlugPilotError
-from server.jobs.errors import UnknownVehicleError, VehicleChoiceError
 from server.localisation.eye import Eye
 from server.schema.problem import problem_from
-from server.schema.routines import (
-    CheckRoutineRequest,
-    Routine,
-    RoutineRequest,
-    SocketRoutineRequest,
-)
-from server.schema.vehicles import Vehicle
+from server.schema.routines import Routine, RoutineAnswer, RoutineRequest
 from server.storage.accuracy_checks import AccuracyCheckStore
+from server.storage.calibration_notes import CalibrationNotes
+from server.storage.errors import StorageError
 from server.storage.vehicles import VehicleStore
 from server.timing import Calendar
 
 _log = logging.getLogger(__name__)
 
-AnyRoutine = RobotRoutine | SocketRoutine | CheckRoutine
+NOTE = "routine"
+"""Under this name the newest routine is kept, for the next start."""
 
 State = Literal["running", "interrupted", "finished", "failed", "cancelled"]
 
@@ -62,6 +60,7 @@ class RoutineDesk:
         settings: The whole configuration.
         calendar: Dates.
         checks: Keeps nine-point checks.
+        notes: Keeps what was under way.
     """
 
     def __init__(
@@ -74,6 +73,7 @@ class RoutineDesk:
         settings: Settings,
         calendar: Calendar,
         checks: AccuracyCheckStore,
+        notes: CalibrationNotes,
     ) -> None:
         self._supervisor = supervisor
         self._eye = eye
@@ -90,12 +90,36 @@ class RoutineDesk:
         self._kept: str | None = None
         self._check: str | None = None
         self._checks = checks
+        self._notes = notes
+        self._before: Routine | None = None
+        self._found: NewCalibration | CheckResult | None = None
         self._task: asyncio.Task[None] | None = None
 
     @property
     def shown(self) -> Routine | None:
         """The routine under way, or the last one; None before there was any."""
-        return None if self._routine is None else self._show(self._routine)
+        return self._before if self._routine is None else self._show(self._routine)
+
+    async def start(self) -> None:
+        """Say what became of the routine that was under way when PlugPilot ended.
+
+        What it had seen is gone: nobody knows whether the car has moved meanwhile. What it has
+        found is a version, or none: there is nothing in between.
+        """
+        kept = await self._notes.read(NOTE)
+        if kept is None:
+            return
+        before = Routine.model_validate(kept)
+        if before.state in {"running", "interrupted"}:
+            lost = RoutineLostError(
+                "What it had seen is given up, because nobody knows whether the car has moved "
+                "meanwhile. Nothing was kept, and nothing was put in force."
+            )
+            before = before.model_copy(
+                update={"state": "failed", "asks": None, "problem": problem_from(lost)}
+            )
+            await self._write(before)
+        self._before = before
 
     def _show(self, routine: AnyRoutine) -> Routine:
         progress = self._progress
@@ -111,6 +135,10 @@ class RoutineDesk:
             calibration_id=self._kept,
             check_id=self._check,
             problem=problem_from(self._problem) if self._problem else None,
+            asks=progress.asks,
+            verdict=self._found.grade if isinstance(self._found, NewCalibration) else None,
+            remarks=list(self._found.remarks) if isinstance(self._found, NewCalibration) else [],
+            figures=figures_of(self._found) if self._found else [],
         )
 
     def listen(self, listener: Callable[[], None]) -> None:
@@ -126,14 +154,16 @@ class RoutineDesk:
             ControlBusyError: a job, or somebody else, uses the robot.
         """
         self._refuse_second()
-        vehicle = await self._choose_vehicle(request)
+        routine = await routine_for(request, by, self._vehicles)
         self._refuse_second()
         lease = self._supervisor.acquire("calibration", HOLDER)
-        self._routine = _routine(request, by, vehicle)
+        self._routine = routine
         self._progress = Progress(self._changed)
         self._begun_at = self._calendar.now()
-        self._kept = self._check = None
-        return self._go_on(self._routine, lease)
+        self._kept = self._check = self._found = None
+        shown = self._go_on(self._routine, lease)
+        await self._write(shown)
+        return shown
 
     async def resume(self) -> Routine:
         """Go on where the routine was interrupted.
@@ -147,6 +177,19 @@ class RoutineDesk:
         lease = self._supervisor.acquire("calibration", HOLDER)
         return self._go_on(self._routine, lease)
 
+    def confirm(self, answer: RoutineAnswer) -> Routine:
+        """Answer what the routine asks.
+
+        Raises:
+            NoRoutineError: none is under way.
+            NoQuestionError: it asks nothing, or something else.
+            AnswerUnfitError: the number is missing, or cannot be right.
+        """
+        if self._routine is None or self._state != "running":
+            raise NoRoutineError("No calibration is under way.")
+        self._progress.take_answer(answer)
+        return self._show(self._routine)
+
     async def cancel(self) -> Routine:
         """End the routine; the robot comes to rest, and nothing is kept.
 
@@ -159,6 +202,7 @@ class RoutineDesk:
         if self._state in {"running", "interrupted"}:  # it may just have ended
             self._state = "cancelled"
         self._changed()
+        await self._write(self._show(self._routine))
         return self._show(self._routine)
 
     async def wait(self) -> None:
@@ -183,9 +227,11 @@ class RoutineDesk:
             supervisor=self._supervisor,
             lease=lease,
             eye=self._eye,
-            vehicle=routine.vehicle,
+            owner=routine.vehicle,
             settings=self._settings,
             as_taught=self._calibrations.as_taught,
+            in_force=self._calibrations.in_force,
+            evidence=self._calibrations.robot_evidence,
         )
         try:
             found = await routine.run(stand, self._progress)
@@ -201,8 +247,17 @@ class RoutineDesk:
         else:
             self._state = "finished"
         self._changed()
+        await self._write(self._show(routine))
+
+    async def _write(self, routine: Routine) -> None:
+        """For the next start. A disk that does not take it ends no calibration."""
+        try:
+            await self._notes.write(NOTE, routine.model_dump(mode="json"), self._calendar.now())
+        except StorageError as error:
+            _log.warning("how far the calibration is could not be kept: %s", error.detail)
 
     async def _keep(self, found: NewCalibration | CheckResult) -> None:
+        self._found = found
         if isinstance(found, CheckResult):
             check = check_of(found, self._calendar.now(), self._calibrations.robot_in_force)
             await self._checks.add(check)
@@ -217,20 +272,6 @@ class RoutineDesk:
             self._task.cancel()
             await asyncio.wait({self._task})
 
-    async def _choose_vehicle(self, request: RoutineRequest) -> Vehicle:
-        known = await self._vehicles.all()
-        if request.vehicle_id is not None:
-            for vehicle in known:
-                if vehicle.id == request.vehicle_id:
-                    return vehicle
-            raise UnknownVehicleError(f"There is no vehicle {request.vehicle_id!r}.")
-        if not known:
-            raise UnknownVehicleError("No vehicle has been added yet.")
-        if len(known) > 1:
-            names = ", ".join(vehicle.id for vehicle in known)
-            raise VehicleChoiceError(f"Several vehicles are known: {names}.")
-        return known[0]
-
     def _refuse_second(self) -> None:
         if self._state == "running":
             raise RoutineRunningError("One calibration at a time.")
@@ -238,11 +279,3 @@ class RoutineDesk:
     def _changed(self) -> None:
         for listener in self._listeners:
             listener()
-
-
-def _routine(request: RoutineRequest, by: str, vehicle: Vehicle) -> AnyRoutine:
-    if isinstance(request, CheckRoutineRequest):
-        return CheckRoutine(request, by, vehicle)
-    if isinstance(request, SocketRoutineRequest):
-        return SocketRoutine(request, by, vehicle)
-    return RobotRoutine(request, by, vehicle)

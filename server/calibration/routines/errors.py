@@ -3,6 +3,11 @@
 RoutineError
 ├── RoutineRunningError      one is under way already
 ├── NoRoutineError           there is none to go on with, or to end
+├── NoQuestionError          nothing, or something else, is asked
+├── AnswerUnfitError         the number is missing, or cannot be right
+├── RoutineLostError         PlugPilot ended in the middle of it
+├── SlideHitError            something stands where the slide should run freely
+├── NoSpringError            nothing gave way as a spring does
 ├── LabelMovedError          the label is not where it was when the routine began
 ├── LabelLostError           too few places show the label
 ├── PlugNotInError           the socket cannot be taught without the plug in it
@@ -37,6 +42,47 @@ class NoRoutineError(RoutineError):
     code = "calibration_none"
     title = "No calibration is under way"
     remedy = "Begin one."
+
+
+class NoQuestionError(RoutineError):
+    """Nothing, or something else, is asked."""
+
+    code = "calibration_no_question"
+    title = "The calibration asks nothing like that"
+    remedy = "Look at what it asks now."
+
+
+class AnswerUnfitError(RoutineError):
+    """The number is missing, or cannot be right."""
+
+    code = "calibration_answer"
+    title = "This number cannot be right"
+    status = 422
+    remedy = "Measure again, and enter the number in the unit that is shown."
+
+
+class RoutineLostError(RoutineError):
+    """PlugPilot ended in the middle of it."""
+
+    code = "calibration_lost"
+    title = "PlugPilot was restarted in the middle of the calibration"
+    remedy = "Nothing has changed. Begin the calibration again."
+
+
+class SlideHitError(RoutineError):
+    """Something stands where the slide should run freely."""
+
+    code = "calibration_slide_hit"
+    title = "The plug has met something"
+    remedy = "Clear the way before the plug, or choose a shorter stroke, then go on."
+
+
+class NoSpringError(RoutineError):
+    """Nothing gave way as a spring does."""
+
+    code = "calibration_no_spring"
+    title = "The plug has met no spring"
+    remedy = "Put the spring straight before the plug, within its reach, then go on."
 
 
 class LabelMovedError(RoutineError):

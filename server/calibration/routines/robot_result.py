@@ -29,6 +29,7 @@ def result_of(
     *,
     made_by: str,
     duration_s: float,
+    source: str,
 ) -> NewCalibration:
     """Solve for the robot and judge it beside the one in force.
 
@@ -54,7 +55,7 @@ def result_of(
             camera_rotation_rad=rotation_vector(unknowns.R_base_camera),
         ),
         made_by=made_by,
-        source=f"{len(looks)} looks at the label of {stand.vehicle.name}"[:200],
+        source=source[:200],
         grade=grade,
         remarks=tuple(remarks),
         error=verdict.held_back_mm,

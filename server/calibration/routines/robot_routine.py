@@ -92,6 +92,7 @@ class RobotRoutine:
             self._known(),
             made_by=self.by,
             duration_s=self._spent_s,
+            source=f"{len(self._looks)} looks at the label of {self.vehicle.name}",
         )
 
     async def _collect(self, stand: Stand, progress: Progress) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from drivers.robot import RobotState
 from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.errors import LabelLostError
+from server.calibration.versions.values import ValuesInForce
 from server.config.settings import Settings
 from server.control.errors import MotionOutOfReachError, RobotOfflineError
 from server.control.lease import Lease
@@ -18,8 +19,10 @@ from server.control.supervisor import Supervisor
 from server.localisation.errors import ImplausiblePlaceError
 from server.localisation.eye import Eye
 from server.localisation.looks import LookPlanner
+from server.schema.calibrations import RobotEvidence
 from server.schema.vehicles import Vehicle
 from server.vision import AmbiguousLabelError, LabelPose, PoseRejectedError
+from twin.as_built import PlanarAsBuilt
 from twin.joints import JointPosition
 from twin.kinematics import KinematicsError, PlatformPosition, alpha
 
@@ -38,17 +41,39 @@ class Stand:
         supervisor: Owner of the robot.
         lease: Proof of control.
         eye: Camera and locator.
-        vehicle: Whose label it looks at.
+        owner: Whose label it looks at; None: it looks at none.
         settings: The whole configuration.
         as_taught: Puts the socket of a vehicle where it was taught.
+        in_force: The numbers that count.
+        evidence: What the calibration of the robot in force rests on, if anything.
     """
 
     supervisor: Supervisor
     lease: Lease
     eye: Eye
-    vehicle: Vehicle
+    owner: Vehicle | None
     settings: Settings
     as_taught: Callable[[Vehicle], Vehicle]
+    in_force: ValuesInForce
+    evidence: RobotEvidence | None
+
+    @property
+    def vehicle(self) -> Vehicle:
+        """Whose label it looks at."""
+        if self.owner is None:
+            raise AssertionError("a routine looks for a label that it did not ask for")
+        return self.owner
+
+    @property
+    def mechanism(self) -> PlanarAsBuilt:
+        """The robot as far as known."""
+        return self.in_force.mechanism or PlanarAsBuilt.as_drawn(self.supervisor.geometry)
+
+    @property
+    def board_rho_mm(self) -> Array:
+        """Where the board has brought the carriages, as it counts, shape (2,) [mm]."""
+        board = self._board_state.commanded.position
+        return np.array([board.rho1_mm, board.rho2_mm])
 
     async def make_ready(self) -> None:
         """Drives on, zero known, plug drawn back.
@@ -116,9 +141,8 @@ class Stand:
         seen = await self.sight()
         if seen is None:
             return None
-        board = self._board_state.commanded.position
         return LabelLook(
-            np.array([board.rho1_mm, board.rho2_mm]),
+            self.board_rho_mm,
             seen.T_camera_label[:3, 3].copy(),
             seen.covariance[3:, 3:].copy(),
         )

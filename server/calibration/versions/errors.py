@@ -2,6 +2,7 @@
 
 CalibrationVersionError
 ├── CalibrationNotFoundError   there is no such version
+├── CheckNotFoundError         there is no such nine-point check
 ├── CalibrationWorseError      it is worse than the one in force, or nobody knows
 ├── CalibrationMisfitError     it belongs to another camera mode
 └── NothingToRollBackError     the configuration is in force already
@@ -27,6 +28,15 @@ class CalibrationNotFoundError(CalibrationVersionError):
     title = "There is no such calibration"
     status = 404
     remedy = "Look at the list of calibrations."
+
+
+class CheckNotFoundError(CalibrationVersionError):
+    """There is no such nine-point check."""
+
+    code = "calibration_check_not_found"
+    title = "There is no such check"
+    status = 404
+    remedy = "Look at the list of checks."
 
 
 class CalibrationWorseError(CalibrationVersionError):

@@ -115,6 +115,18 @@ class Calibrations:
         stored = self._in_force.get((CalibrationKind.ROBOT, WHOLE_ROBOT))
         return stored.id if stored else None
 
+    @property
+    def robot_error_mm(self) -> float | None:
+        """What the calibration of the robot that counts missed on looks held back."""
+        stored = self._in_force.get((CalibrationKind.ROBOT, WHOLE_ROBOT))
+        return stored.error if stored else None
+
+    @property
+    def robot_evidence(self) -> RobotEvidence | None:
+        """What the calibration of the robot that counts rests on; None: nothing, or as drawn."""
+        stored = self._in_force.get((CalibrationKind.ROBOT, WHOLE_ROBOT))
+        return _evidence_of(stored) if stored else None
+
     def as_taught(self, vehicle: Vehicle) -> Vehicle:
         """A vehicle with its socket where it was taught, if it was."""
         return self.in_force.as_taught(vehicle)
@@ -265,7 +277,7 @@ class Calibrations:
 
     def _compared(self, stored: StoredCalibration) -> Comparison:
         values, evidence = _VALUES.validate_python(stored.content), _evidence_of(stored)
-        if isinstance(values, RobotValues) and evidence is not None:
+        if isinstance(values, RobotValues) and evidence is not None and evidence.looks:
             return compared_on_looks(
                 values, evidence, stored.error, self.in_force.mechanism, self._settings.geometry
             )

@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from server.config.camera import CameraSettings
-from server.schema.calibrations import CalibrationValues, CameraValues, RobotValues, SocketValues
+from server.schema.calibrations import (
+    CalibrationValues,
+    CameraValues,
+    ForceValues,
+    PlayValues,
+    RobotValues,
+    SocketValues,
+)
 from server.schema.vehicles import Vehicle
 from server.storage.calibrations import WHOLE_ROBOT
 from twin.as_built import PlanarAsBuilt
@@ -27,11 +34,15 @@ class ValuesInForce:
         camera: None: as configured.
         robot: None: as configured.
         sockets: Of taught vehicles.
+        play: None: never measured.
+        force: None: never measured.
     """
 
     camera: CameraValues | None = None
     robot: RobotValues | None = None
     sockets: tuple[SocketValues, ...] = ()
+    play: PlayValues | None = None
+    force: ForceValues | None = None
 
     @classmethod
     def of(cls, values: Iterable[CalibrationValues]) -> Self:
@@ -41,6 +52,8 @@ class ValuesInForce:
             next((one for one in all_of_them if isinstance(one, CameraValues)), None),
             next((one for one in all_of_them if isinstance(one, RobotValues)), None),
             tuple(one for one in all_of_them if isinstance(one, SocketValues)),
+            next((one for one in all_of_them if isinstance(one, PlayValues)), None),
+            next((one for one in all_of_them if isinstance(one, ForceValues)), None),
         )
 
     @property

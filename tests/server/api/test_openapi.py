@@ -24,6 +24,7 @@ STREAMS = {
     "image/jpeg",
     "multipart/x-mixed-replace",
     "application/octet-stream",
+    "application/pdf",
     "application/x-ndjson",
     "application/zip",
 }

@@ -476,6 +476,49 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations/checks/{check_id}/report.pdf": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Download the report of a check
+         * @description A nine-point check on paper: AP, RP and vAP of each place, in a table and in pictures.
+         */
+        readonly get: operations["getAccuracyReport"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/drift": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read what jobs have shown
+         * @description How the belts have changed, what good insertions feel like, and what wears.
+         *
+         *     Every successful job adds to it. Small changes of the belts are put in force by themselves, as
+         *     versions whose evidence says ``drift``; whoever rolls one back is obeyed.
+         */
+        readonly get: operations["getDrift"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/calibrations/now": {
         readonly parameters: {
             readonly query?: never;
@@ -529,7 +572,7 @@ export interface paths {
         readonly put?: never;
         /**
          * Begin a routine
-         * @description Measure the robot, from 25 looks at a label that stands still, or teach a socket.
+         * @description Measure the robot or a part of it, check it, or teach a socket; ``listRoutines`` says what.
          *
          *     Answers at once. What comes of it is a new version that nobody uses yet. A routine that was
          *     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
@@ -561,6 +604,26 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations/routine/confirm": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Answer the routine
+         * @description Confirm that what it asks for is done or, where it asks for one, give a number.
+         */
+        readonly post: operations["confirmCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/calibrations/routine/resume": {
         readonly parameters: {
             readonly query?: never;
@@ -575,6 +638,26 @@ export interface paths {
          * @description Go on where the routine was interrupted.
          */
         readonly post: operations["resumeCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routines": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * List the routines
+         * @description What can be measured, in the order in which a new robot wants it.
+         */
+        readonly get: operations["listRoutines"];
+        readonly put?: never;
+        readonly post?: never;
         readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
@@ -1906,6 +1989,53 @@ export interface components {
             readonly times: number;
         };
         /**
+         * BeltDrift
+         * @description How the belts have changed since the robot was last measured, from the looks of jobs.
+         */
+        readonly BeltDrift: {
+            /**
+             * At Bound
+             * @description As far as may be learnt from jobs: measure the robot
+             */
+            readonly at_bound: boolean;
+            /**
+             * Exceeds
+             * @description It has drifted further than was proven
+             */
+            readonly exceeds: boolean;
+            /**
+             * Jobs
+             * @description That were learnt from since the robot was measured
+             */
+            readonly jobs: number;
+            /**
+             * Left Percent
+             * @description Travel of the left belt against then
+             */
+            readonly left_percent: number;
+            /** Left Sigma Percent */
+            readonly left_sigma_percent: number;
+            /**
+             * Moved Mm
+             * @description What that makes at the nine places of the regular box, at most
+             */
+            readonly moved_mm: number;
+            /**
+             * Proven Mm
+             * @description Within that the last measurement is proven
+             */
+            readonly proven_mm: number;
+            /**
+             * Refused In A Row
+             * @description Jobs whose looks did not fit at all
+             */
+            readonly refused_in_a_row: number;
+            /** Right Percent */
+            readonly right_percent: number;
+            /** Right Sigma Percent */
+            readonly right_sigma_percent: number;
+        };
+        /**
          * BeltReading
          * @description How far a carriage really went, measured with a rule.
          */
@@ -1920,6 +2050,29 @@ export interface components {
             /**
              * Reading Sigma Mm
              * @description How exactly each end of the rule was read
+             * @default 0.1
+             */
+            readonly reading_sigma_mm?: number;
+        };
+        /**
+         * BeltsRoutineRequest
+         * @description Measure with a rule how far both carriages go; asks for both readings on the way.
+         */
+        readonly BeltsRoutineRequest: {
+            /**
+             * Distance Mm
+             * @description By the board's counting
+             * @default 300
+             */
+            readonly distance_mm?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "belts";
+            /**
+             * Reading Sigma Mm
+             * @description How exactly each end of the rule is read
              * @default 0.1
              */
             readonly reading_sigma_mm?: number;
@@ -1942,7 +2095,7 @@ export interface components {
         readonly Calibration: {
             /**
              * Error
-             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             * @description What it misses on data held back, in mm, (camera) px or (force) N; null: not measured
              */
             readonly error: number | null;
             /**
@@ -1975,7 +2128,7 @@ export interface components {
              */
             readonly source: string;
             /** Values */
-            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"] | components["schemas"]["SwitchesValues"] | components["schemas"]["PlayValues"] | components["schemas"]["ForceValues"];
             /**
              * Version
              * @description Counted from 1, of each kind and vehicle
@@ -1989,7 +2142,7 @@ export interface components {
         readonly CalibrationDetail: {
             /**
              * Error
-             * @description What it misses on data held back, in mm or (camera) px; null: not measured
+             * @description What it misses on data held back, in mm, (camera) px or (force) N; null: not measured
              */
             readonly error: number | null;
             /**
@@ -2023,7 +2176,7 @@ export interface components {
              */
             readonly source: string;
             /** Values */
-            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"] | components["schemas"]["SwitchesValues"] | components["schemas"]["PlayValues"] | components["schemas"]["ForceValues"];
             /**
              * Version
              * @description Counted from 1, of each kind and vehicle
@@ -2041,19 +2194,26 @@ export interface components {
              */
             readonly source: string;
             /** Values */
-            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"];
+            readonly values: components["schemas"]["CameraValues"] | components["schemas"]["RobotValues"] | components["schemas"]["SocketValues"] | components["schemas"]["SwitchesValues"] | components["schemas"]["PlayValues"] | components["schemas"]["ForceValues"];
         };
         /**
          * CalibrationKind
          * @description What is calibrated. Of each kind, and of sockets for each vehicle, one version counts.
          * @enum {string}
          */
-        readonly CalibrationKind: "camera" | "robot" | "socket";
+        readonly CalibrationKind: "camera" | "robot" | "socket" | "switches" | "play" | "force";
         /**
          * CalibrationNow
          * @description What counts, and what is being measured.
          */
         readonly CalibrationNow: {
+            /** @description What jobs have shown of the belts */
+            readonly drift?: components["schemas"]["BeltDrift"] | null;
+            /**
+             * Hints
+             * @description What wears, or has moved; empty: all is well
+             */
+            readonly hints?: readonly components["schemas"]["MaintenanceHint"][];
             /**
              * @default {
              *       "sockets": []
@@ -2081,12 +2241,15 @@ export interface components {
          */
         readonly CalibrationsInForce: {
             readonly camera?: components["schemas"]["Calibration"] | null;
+            readonly force?: components["schemas"]["Calibration"] | null;
+            readonly play?: components["schemas"]["Calibration"] | null;
             readonly robot?: components["schemas"]["Calibration"] | null;
             /**
              * Sockets
              * @description Of taught vehicles
              */
             readonly sockets?: readonly components["schemas"]["Calibration"][];
+            readonly switches?: components["schemas"]["Calibration"] | null;
         };
         /**
          * CameraInspection
@@ -2725,6 +2888,17 @@ export interface components {
             readonly unit: "mm" | "N" | "s";
         };
         /**
+         * DriftReport
+         * @description Everything that jobs have taught.
+         */
+        readonly DriftReport: {
+            readonly belts: components["schemas"]["BeltDrift"];
+            /** Hints */
+            readonly hints: readonly components["schemas"]["MaintenanceHint"][];
+            /** Insertions */
+            readonly insertions: readonly components["schemas"]["InsertionBand"][];
+        };
+        /**
          * DriveIn
          * @description Come in from outside and stop at the place, or as near to it as the driver manages.
          */
@@ -2917,6 +3091,81 @@ export interface components {
             ];
         };
         /**
+         * ForceRoutineRequest
+         * @description Measure the slide's friction from empty strokes and, against a spring, its force scale.
+         */
+        readonly ForceRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "force";
+            /**
+             * Spring N Mm
+             * @description Rate of a spring to push against; null: the force scale is not measured
+             */
+            readonly spring_n_mm?: number | null;
+            /**
+             * Spring Sigma
+             * @description How exactly that rate is known, as a share of it
+             * @default 0.02
+             */
+            readonly spring_sigma?: number;
+            /**
+             * Stroke Mm
+             * @description So far the plug goes out; nothing may stand there
+             * @default 12
+             */
+            readonly stroke_mm?: number;
+            /**
+             * Strokes
+             * @description There and back
+             * @default 3
+             */
+            readonly strokes?: number;
+        };
+        /**
+         * ForceValues
+         * @description The slide as its own force gauge. The watch over the plug goes on with the raw force.
+         */
+        readonly ForceValues: {
+            /**
+             * Following Mm
+             * @description How far the slide lags behind its set point at most
+             */
+            readonly following_mm: number;
+            /**
+             * Friction N
+             * @description Half of what differs between out and back
+             */
+            readonly friction_n: number;
+            /** Friction Sigma N */
+            readonly friction_sigma_n: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "force";
+            /**
+             * Offset N
+             * @description Mean of both: what the gauge shows without any force
+             */
+            readonly offset_n: number;
+            /** Offset Sigma N */
+            readonly offset_sigma_n: number;
+            /**
+             * Scale
+             * @description Shown force over the true one
+             * @default 1
+             */
+            readonly scale?: number;
+            /**
+             * Scale Sigma
+             * @description Null: the scale was not measured
+             */
+            readonly scale_sigma?: number | null;
+        };
+        /**
          * Grade
          * @description What to do with a calibration; from best to worst.
          * @enum {string}
@@ -3106,6 +3355,36 @@ export interface components {
             readonly uptime_s: number;
             /** Version */
             readonly version: string;
+        };
+        /**
+         * InsertionBand
+         * @description What good insertions into one vehicle's socket feel like.
+         */
+        readonly InsertionBand: {
+            /**
+             * Learnt From
+             * @description Good insertions
+             */
+            readonly learnt_from: number;
+            /**
+             * Points
+             * @description (Depth in mm, smallest and largest force in N); empty until there are enough
+             */
+            readonly points: readonly (readonly [
+                number,
+                number,
+                number
+            ])[];
+            /**
+             * Recent
+             * @description (Depth in mm, mean force in N) of the last insertions
+             */
+            readonly recent: readonly (readonly [
+                number,
+                number
+            ])[];
+            /** Vehicle Id */
+            readonly vehicle_id: string;
         };
         /**
          * InvitationEntry
@@ -3728,10 +4007,15 @@ export interface components {
         readonly Live: {
             /**
              * @default {
+             *       "drift": null,
+             *       "hints": [],
              *       "in_force": {
              *         "camera": null,
+             *         "force": null,
+             *         "play": null,
              *         "robot": null,
-             *         "sockets": []
+             *         "sockets": [],
+             *         "switches": null
              *       },
              *       "routine": null
              *     }
@@ -3819,6 +4103,33 @@ export interface components {
              * @description 1; less for a look that does not fit
              */
             readonly weight: number;
+        };
+        /**
+         * MaintenanceHint
+         * @description Something wears, or has moved. Nothing is stopped by it.
+         */
+        readonly MaintenanceHint: {
+            /**
+             * Code
+             * @description Stable
+             * @example plug_heavy
+             */
+            readonly code: string;
+            /**
+             * Text
+             * @description This occurrence, and what to do, in sentences
+             */
+            readonly text: string;
+            /**
+             * Title
+             * @description Short, the same for every occurrence of the code
+             */
+            readonly title: string;
+            /**
+             * Vehicle Id
+             * @description Whose socket or label; null: the robot itself
+             */
+            readonly vehicle_id: string | null;
         };
         /**
          * MeasuredMotion
@@ -4240,6 +4551,54 @@ export interface components {
             readonly text: string;
         };
         /**
+         * PlayRoutineRequest
+         * @description Approach one place from both sides, with each carriage by itself.
+         */
+        readonly PlayRoutineRequest: {
+            /**
+             * Approaches
+             * @description With each carriage, from each side
+             * @default 4
+             */
+            readonly approaches?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "play";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * PlayValues
+         * @description Play of the carriages, and how far each lags behind its set point while it moves.
+         */
+        readonly PlayValues: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "play";
+            /**
+             * Left Following Mm
+             * @description Largest distance to the set point, moving
+             */
+            readonly left_following_mm: number;
+            /** Left Mm */
+            readonly left_mm: number;
+            /** Left Sigma Mm */
+            readonly left_sigma_mm: number;
+            /** Right Following Mm */
+            readonly right_following_mm: number;
+            /** Right Mm */
+            readonly right_mm: number;
+            /** Right Sigma Mm */
+            readonly right_sigma_mm: number;
+        };
+        /**
          * PlugChanged
          * @description The plug is somewhere else.
          */
@@ -4575,6 +4934,13 @@ export interface components {
             /** Looks */
             readonly looks: readonly components["schemas"]["LookRecord"][];
             /**
+             * Provenance
+             * @description A routine has looked, or jobs have on their way (drift)
+             * @default routine
+             * @enum {string}
+             */
+            readonly provenance?: "routine" | "drift";
+            /**
              * Sigma
              * @description Standard deviation of each unknown
              */
@@ -4702,6 +5068,8 @@ export interface components {
          * @description The routine under way, or the last one.
          */
         readonly Routine: {
+            /** @description What it waits for; null: for nobody */
+            readonly asks?: components["schemas"]["RoutineQuestion"] | null;
             /**
              * Begun At
              * Format: date-time
@@ -4728,14 +5096,24 @@ export interface components {
             /** Done */
             readonly done: number;
             /**
+             * Figures
+             * @description What was found
+             */
+            readonly figures?: readonly components["schemas"]["RoutineFigure"][];
+            /**
              * Kind
              * @enum {string}
              */
-            readonly kind: "robot" | "socket" | "check";
+            readonly kind: "robot" | "socket" | "check" | "switches" | "play" | "belts" | "force";
             /** Looks */
             readonly looks: readonly components["schemas"]["RoutineLook"][];
             /** @description Why it stands still, or has failed */
             readonly problem: components["schemas"]["Problem"] | null;
+            /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks?: readonly string[];
             /**
              * State
              * @description An interrupted one can be resumed where it was
@@ -4747,6 +5125,104 @@ export interface components {
              * @description Places to look from; 0 until they are chosen
              */
             readonly total: number;
+            /** @description Of what came of it */
+            readonly verdict?: components["schemas"]["Grade"] | null;
+        };
+        /**
+         * RoutineAnswer
+         * @description The answer to the question that a routine asks.
+         */
+        readonly RoutineAnswer: {
+            /**
+             * Code
+             * @description Of the question: an older one is not answered by mistake
+             */
+            readonly code: string;
+            /** Value */
+            readonly value?: number | null;
+        };
+        /**
+         * RoutineDescription
+         * @description What there is to choose from.
+         */
+        readonly RoutineDescription: {
+            /**
+             * Before
+             * @description What to do before it begins, in sentences
+             */
+            readonly before: readonly string[];
+            /**
+             * Kind
+             * @enum {string}
+             */
+            readonly kind: "robot" | "socket" | "check" | "switches" | "play" | "belts" | "force";
+            /**
+             * Needs Label
+             * @description A car with a label has to stand before the robot
+             */
+            readonly needs_label: boolean;
+            /** Settings */
+            readonly settings: readonly components["schemas"]["RoutineSetting"][];
+            /** Title */
+            readonly title: string;
+            /**
+             * What
+             * @description What the robot does, and what comes of it
+             */
+            readonly what: string;
+        };
+        /**
+         * RoutineFigure
+         * @description One number that a routine has found.
+         */
+        readonly RoutineFigure: {
+            /**
+             * Code
+             * @description Stable
+             * @example play_left_mm
+             */
+            readonly code: string;
+            /**
+             * Label
+             * @description In a few words
+             */
+            readonly label: string;
+            /**
+             * Sigma
+             * @description Its standard deviation; null: not known
+             */
+            readonly sigma: number | null;
+            /**
+             * Unit
+             * @description Empty for a ratio
+             * @example mm
+             */
+            readonly unit: string;
+            /** Value */
+            readonly value: number;
+        };
+        /**
+         * RoutineInput
+         * @description A number that a person types in.
+         */
+        readonly RoutineInput: {
+            /** Least */
+            readonly least: number;
+            /** Most */
+            readonly most: number;
+            /**
+             * Unit
+             * @enum {string}
+             */
+            readonly unit: "mm" | "N";
+        };
+        /**
+         * RoutineList
+         * @description All routines, in the order in which a new robot wants them.
+         */
+        readonly RoutineList: {
+            /** Routines */
+            readonly routines: readonly components["schemas"]["RoutineDescription"][];
         };
         /**
          * RoutineLook
@@ -4762,6 +5238,54 @@ export interface components {
             readonly x_mm: number;
             /** Y Mm */
             readonly y_mm: number;
+        };
+        /**
+         * RoutineQuestion
+         * @description What a routine waits for. Nothing moves until it is answered.
+         */
+        readonly RoutineQuestion: {
+            /**
+             * Code
+             * @description Stable
+             * @example belts_marked
+             */
+            readonly code: string;
+            /** @description Null: it is enough to confirm */
+            readonly input: components["schemas"]["RoutineInput"] | null;
+            /**
+             * Text
+             * @description What to do, in a sentence or two
+             */
+            readonly text: string;
+        };
+        /**
+         * RoutineSetting
+         * @description One number of a request that may be chosen.
+         */
+        readonly RoutineSetting: {
+            /** Label */
+            readonly label: string;
+            /** Least */
+            readonly least: number;
+            /** Most */
+            readonly most: number;
+            /**
+             * Name
+             * @example approaches
+             */
+            readonly name: string;
+            /** Unit */
+            readonly unit: string;
+            /**
+             * Usual
+             * @description Null: it is left out unless it is given
+             */
+            readonly usual: number | null;
+            /**
+             * Whole
+             * @description Whole numbers only
+             */
+            readonly whole: boolean;
         };
         /**
          * Scope
@@ -5035,6 +5559,57 @@ export interface components {
              * @enum {string}
              */
             readonly type: "stop";
+        };
+        /**
+         * SwitchesRoutineRequest
+         * @description Home again and again, and look each time where the platform then stands.
+         */
+        readonly SwitchesRoutineRequest: {
+            /**
+             * Approaches
+             * @description Of each switch
+             * @default 5
+             */
+            readonly approaches?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "switches";
+            /**
+             * Vehicle Id
+             * @description Not needed where there is only one vehicle
+             */
+            readonly vehicle_id?: string | null;
+        };
+        /**
+         * SwitchesValues
+         * @description How well the limit switches of the carriages repeat.
+         *
+         *     The slide's own switch no camera sees: the plug's depth is measured before each insertion.
+         */
+        readonly SwitchesValues: {
+            /** Approaches */
+            readonly approaches: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "switches";
+            /**
+             * Left Sigma Mm
+             * @description How sure that is
+             */
+            readonly left_sigma_mm: number;
+            /**
+             * Left Spread Mm
+             * @description Standard deviation of where it closes
+             */
+            readonly left_spread_mm: number;
+            /** Right Sigma Mm */
+            readonly right_sigma_mm: number;
+            /** Right Spread Mm */
+            readonly right_spread_mm: number;
         };
         /**
          * TargetRequest
@@ -7028,6 +7603,111 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly getAccuracyReport: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                /** @description As in the list of checks */
+                readonly check_id: string;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The report */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/pdf": string;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getDrift: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "belts": {
+                     *         "at_bound": false,
+                     *         "exceeds": true,
+                     *         "jobs": 100,
+                     *         "left_percent": 0.18,
+                     *         "left_sigma_percent": 0.025,
+                     *         "moved_mm": 0.22,
+                     *         "proven_mm": 0.12,
+                     *         "refused_in_a_row": 0,
+                     *         "right_percent": 0.01,
+                     *         "right_sigma_percent": 0.025
+                     *       },
+                     *       "hints": [
+                     *         {
+                     *           "code": "plug_heavy",
+                     *           "text": "At a depth of 36 mm the last 5 insertions took 88 N; 64 to 78 N were usual. Clean plug and socket, and look for bent contacts.",
+                     *           "title": "The plug goes in harder than it used to",
+                     *           "vehicle_id": "zoe"
+                     *         }
+                     *       ],
+                     *       "insertions": [
+                     *         {
+                     *           "learnt_from": 8,
+                     *           "points": [
+                     *             [
+                     *               32,
+                     *               39.1,
+                     *               52.4
+                     *             ],
+                     *             [
+                     *               36,
+                     *               64.2,
+                     *               78
+                     *             ]
+                     *           ],
+                     *           "recent": [
+                     *             [
+                     *               32,
+                     *               60.3
+                     *             ],
+                     *             [
+                     *               36,
+                     *               88.1
+                     *             ]
+                     *           ],
+                     *           "vehicle_id": "zoe"
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["DriftReport"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly getCalibrationNow: {
         readonly parameters: {
             readonly query?: never;
@@ -7045,8 +7725,30 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "drift": {
+                     *         "at_bound": false,
+                     *         "exceeds": true,
+                     *         "jobs": 100,
+                     *         "left_percent": 0.18,
+                     *         "left_sigma_percent": 0.025,
+                     *         "moved_mm": 0.22,
+                     *         "proven_mm": 0.12,
+                     *         "refused_in_a_row": 0,
+                     *         "right_percent": 0.01,
+                     *         "right_sigma_percent": 0.025
+                     *       },
+                     *       "hints": [
+                     *         {
+                     *           "code": "plug_heavy",
+                     *           "text": "At a depth of 36 mm the last 5 insertions took 88 N; 64 to 78 N were usual. Clean plug and socket, and look for bent contacts.",
+                     *           "title": "The plug goes in harder than it used to",
+                     *           "vehicle_id": "zoe"
+                     *         }
+                     *       ],
                      *       "in_force": {
                      *         "camera": null,
+                     *         "force": null,
+                     *         "play": null,
                      *         "robot": {
                      *           "error": 0.034,
                      *           "error_in_use": 2.41,
@@ -7080,15 +7782,33 @@ export interface operations {
                      *           },
                      *           "version": 3
                      *         },
-                     *         "sockets": []
+                     *         "sockets": [],
+                     *         "switches": null
                      *       },
                      *       "routine": {
+                     *         "asks": null,
                      *         "begun_at": "2026-03-01T18:02:11.400Z",
                      *         "begun_by": "Anna",
                      *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
                      *         "check_id": null,
                      *         "doing": "The calibration is done. Nobody uses it yet.",
                      *         "done": 25,
+                     *         "figures": [
+                     *           {
+                     *             "code": "left_scale",
+                     *             "label": "Left belt",
+                     *             "sigma": 0.0003,
+                     *             "unit": "",
+                     *             "value": 1.0024
+                     *           },
+                     *           {
+                     *             "code": "error",
+                     *             "label": "Misses",
+                     *             "sigma": null,
+                     *             "unit": "mm",
+                     *             "value": 0.034
+                     *           }
+                     *         ],
                      *         "kind": "robot",
                      *         "looks": [
                      *           {
@@ -7098,8 +7818,10 @@ export interface operations {
                      *           }
                      *         ],
                      *         "problem": null,
+                     *         "remarks": [],
                      *         "state": "finished",
-                     *         "total": 25
+                     *         "total": 25,
+                     *         "verdict": "good"
                      *       }
                      *     }
                      */
@@ -7138,8 +7860,30 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "drift": {
+                     *         "at_bound": false,
+                     *         "exceeds": true,
+                     *         "jobs": 100,
+                     *         "left_percent": 0.18,
+                     *         "left_sigma_percent": 0.025,
+                     *         "moved_mm": 0.22,
+                     *         "proven_mm": 0.12,
+                     *         "refused_in_a_row": 0,
+                     *         "right_percent": 0.01,
+                     *         "right_sigma_percent": 0.025
+                     *       },
+                     *       "hints": [
+                     *         {
+                     *           "code": "plug_heavy",
+                     *           "text": "At a depth of 36 mm the last 5 insertions took 88 N; 64 to 78 N were usual. Clean plug and socket, and look for bent contacts.",
+                     *           "title": "The plug goes in harder than it used to",
+                     *           "vehicle_id": "zoe"
+                     *         }
+                     *       ],
                      *       "in_force": {
                      *         "camera": null,
+                     *         "force": null,
+                     *         "play": null,
                      *         "robot": {
                      *           "error": 0.034,
                      *           "error_in_use": 2.41,
@@ -7173,15 +7917,33 @@ export interface operations {
                      *           },
                      *           "version": 3
                      *         },
-                     *         "sockets": []
+                     *         "sockets": [],
+                     *         "switches": null
                      *       },
                      *       "routine": {
+                     *         "asks": null,
                      *         "begun_at": "2026-03-01T18:02:11.400Z",
                      *         "begun_by": "Anna",
                      *         "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
                      *         "check_id": null,
                      *         "doing": "The calibration is done. Nobody uses it yet.",
                      *         "done": 25,
+                     *         "figures": [
+                     *           {
+                     *             "code": "left_scale",
+                     *             "label": "Left belt",
+                     *             "sigma": 0.0003,
+                     *             "unit": "",
+                     *             "value": 1.0024
+                     *           },
+                     *           {
+                     *             "code": "error",
+                     *             "label": "Misses",
+                     *             "sigma": null,
+                     *             "unit": "mm",
+                     *             "value": 0.034
+                     *           }
+                     *         ],
                      *         "kind": "robot",
                      *         "looks": [
                      *           {
@@ -7191,8 +7953,10 @@ export interface operations {
                      *           }
                      *         ],
                      *         "problem": null,
+                     *         "remarks": [],
                      *         "state": "finished",
-                     *         "total": 25
+                     *         "total": 25,
+                     *         "verdict": "good"
                      *       }
                      *     }
                      */
@@ -7219,7 +7983,7 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
-                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"];
+                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"] | components["schemas"]["SwitchesRoutineRequest"] | components["schemas"]["PlayRoutineRequest"] | components["schemas"]["BeltsRoutineRequest"] | components["schemas"]["ForceRoutineRequest"];
             };
         };
         readonly responses: {
@@ -7231,12 +7995,29 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "asks": null,
                      *       "begun_at": "2026-03-01T18:02:11.400Z",
                      *       "begun_by": "Anna",
                      *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
                      *       "check_id": null,
                      *       "doing": "The calibration is done. Nobody uses it yet.",
                      *       "done": 25,
+                     *       "figures": [
+                     *         {
+                     *           "code": "left_scale",
+                     *           "label": "Left belt",
+                     *           "sigma": 0.0003,
+                     *           "unit": "",
+                     *           "value": 1.0024
+                     *         },
+                     *         {
+                     *           "code": "error",
+                     *           "label": "Misses",
+                     *           "sigma": null,
+                     *           "unit": "mm",
+                     *           "value": 0.034
+                     *         }
+                     *       ],
                      *       "kind": "robot",
                      *       "looks": [
                      *         {
@@ -7246,8 +8027,10 @@ export interface operations {
                      *         }
                      *       ],
                      *       "problem": null,
+                     *       "remarks": [],
                      *       "state": "finished",
-                     *       "total": 25
+                     *       "total": 25,
+                     *       "verdict": "good"
                      *     }
                      */
                     readonly "application/json": components["schemas"]["Routine"];
@@ -7282,12 +8065,29 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "asks": null,
                      *       "begun_at": "2026-03-01T18:02:11.400Z",
                      *       "begun_by": "Anna",
                      *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
                      *       "check_id": null,
                      *       "doing": "The calibration is done. Nobody uses it yet.",
                      *       "done": 25,
+                     *       "figures": [
+                     *         {
+                     *           "code": "left_scale",
+                     *           "label": "Left belt",
+                     *           "sigma": 0.0003,
+                     *           "unit": "",
+                     *           "value": 1.0024
+                     *         },
+                     *         {
+                     *           "code": "error",
+                     *           "label": "Misses",
+                     *           "sigma": null,
+                     *           "unit": "mm",
+                     *           "value": 0.034
+                     *         }
+                     *       ],
                      *       "kind": "robot",
                      *       "looks": [
                      *         {
@@ -7297,8 +8097,10 @@ export interface operations {
                      *         }
                      *       ],
                      *       "problem": null,
+                     *       "remarks": [],
                      *       "state": "finished",
-                     *       "total": 25
+                     *       "total": 25,
+                     *       "verdict": "good"
                      *     }
                      */
                     readonly "application/json": components["schemas"]["Routine"];
@@ -7307,6 +8109,85 @@ export interface operations {
             readonly 401: components["responses"]["Problem401"];
             readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly confirmCalibration: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "code": "belts_left",
+                 *       "value": 300.7
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["RoutineAnswer"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "asks": null,
+                     *       "begun_at": "2026-03-01T18:02:11.400Z",
+                     *       "begun_by": "Anna",
+                     *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
+                     *       "check_id": null,
+                     *       "doing": "The calibration is done. Nobody uses it yet.",
+                     *       "done": 25,
+                     *       "figures": [
+                     *         {
+                     *           "code": "left_scale",
+                     *           "label": "Left belt",
+                     *           "sigma": 0.0003,
+                     *           "unit": "",
+                     *           "value": 1.0024
+                     *         },
+                     *         {
+                     *           "code": "error",
+                     *           "label": "Misses",
+                     *           "sigma": null,
+                     *           "unit": "mm",
+                     *           "value": 0.034
+                     *         }
+                     *       ],
+                     *       "kind": "robot",
+                     *       "looks": [
+                     *         {
+                     *           "seen": true,
+                     *           "x_mm": 642,
+                     *           "y_mm": 331.5
+                     *         }
+                     *       ],
+                     *       "problem": null,
+                     *       "remarks": [],
+                     *       "state": "finished",
+                     *       "total": 25,
+                     *       "verdict": "good"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Routine"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
@@ -7328,12 +8209,29 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "asks": null,
                      *       "begun_at": "2026-03-01T18:02:11.400Z",
                      *       "begun_by": "Anna",
                      *       "calibration_id": "01957a40-1c3e-7f0a-9d52-6c1b7a90e4d2",
                      *       "check_id": null,
                      *       "doing": "The calibration is done. Nobody uses it yet.",
                      *       "done": 25,
+                     *       "figures": [
+                     *         {
+                     *           "code": "left_scale",
+                     *           "label": "Left belt",
+                     *           "sigma": 0.0003,
+                     *           "unit": "",
+                     *           "value": 1.0024
+                     *         },
+                     *         {
+                     *           "code": "error",
+                     *           "label": "Misses",
+                     *           "sigma": null,
+                     *           "unit": "mm",
+                     *           "value": 0.034
+                     *         }
+                     *       ],
                      *       "kind": "robot",
                      *       "looks": [
                      *         {
@@ -7343,8 +8241,10 @@ export interface operations {
                      *         }
                      *       ],
                      *       "problem": null,
+                     *       "remarks": [],
                      *       "state": "finished",
-                     *       "total": 25
+                     *       "total": 25,
+                     *       "verdict": "good"
                      *     }
                      */
                     readonly "application/json": components["schemas"]["Routine"];
@@ -7353,6 +8253,56 @@ export interface operations {
             readonly 401: components["responses"]["Problem401"];
             readonly 403: components["responses"]["Problem403"];
             readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly listRoutines: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "routines": [
+                     *         {
+                     *           "before": [
+                     *             "Let the plug hang freely at the robot."
+                     *           ],
+                     *           "kind": "play",
+                     *           "needs_label": true,
+                     *           "settings": [
+                     *             {
+                     *               "label": "Approaches",
+                     *               "least": 3,
+                     *               "most": 30,
+                     *               "name": "approaches",
+                     *               "unit": "",
+                     *               "usual": 4,
+                     *               "whole": true
+                     *             }
+                     *           ],
+                     *           "title": "Play of the carriages",
+                     *           "what": "Brings each carriage to the same place from both sides."
+                     *         }
+                     *       ]
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["RoutineList"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

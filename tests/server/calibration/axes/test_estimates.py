@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from server.calibration.axes.estimates import belt_scale, play, switch_spread
+from server.calibration.axes.estimates import belt_scale, play, spread_between, switch_spread
 
 
 def test_the_spread_of_a_switch_is_found_with_its_own_doubt() -> None:
@@ -46,3 +46,18 @@ def test_play_is_what_a_reversal_loses() -> None:
 def test_too_little_is_refused(call: object, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         call()  # type: ignore[operator]  # each is a function without arguments
+
+
+def test_what_differs_between_groups_is_told_from_what_differs_within() -> None:
+    rng = np.random.default_rng(4)
+    found = [
+        spread_between(rng.normal(0.0, 0.1, (8, 1)) + rng.normal(0.0, 0.05, (8, 2))).value
+        for _ in range(400)
+    ]
+    assert np.sqrt(np.mean(np.square(found))) == pytest.approx(0.1, rel=0.06)
+    alone = [spread_between(rng.normal(0.0, 0.05, (8, 2))).value for _ in range(400)]
+    assert np.mean(alone) < 0.025
+    with pytest.raises(ValueError, match="at least 3"):
+        spread_between(np.zeros((2, 2)))
+    with pytest.raises(ValueError, match="at least 2"):
+        spread_between(np.zeros((4, 1)))

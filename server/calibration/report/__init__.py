@@ -1,0 +1,1 @@
+"""Nine-point checks on paper."""
