@@ -96,7 +96,9 @@ def answer(path: str) -> Json:
         return _checks().model_dump(mode="json")
     if path == "calibrations":
         older = Calibration.model_validate(_example("calibrations")["items"][0])
-        newest = Calibration(**{name: getattr(_detail(), name) for name in Calibration.model_fields})
+        newest = Calibration(
+            **{name: getattr(_detail(), name) for name in Calibration.model_fields}
+        )
         newest = newest.model_copy(update={"id": "01957a40-0000-7000-8000-000000000002"})
         newest = newest.model_copy(update={"version": 4})
         page = [one.model_dump(mode="json") for one in (newest, older)]
@@ -137,9 +139,7 @@ _LOST = Problem(
     detail="From the first place the label is not to be seen any more.",
     remedy="Look for glare, dirt and things in front of the label, then go on.",
 )
-_MOVED = _LOST.model_copy(
-    update={"code": "calibration_label_moved", "context": {"moved_mm": 1.24}}
-)
+_MOVED = _LOST.model_copy(update={"code": "calibration_label_moved", "context": {"moved_mm": 1.24}})
 
 CALIBRATIONS: Mapping[str, Live] = {
     "calibration-running": _calibrating(),
