@@ -145,7 +145,7 @@ CALIBRATIONS: Mapping[str, Live] = {
     "calibration-running": _calibrating(),
     "calibration-interrupted": _calibrating(state="interrupted", problem=_LOST),
     "calibration-failed": _calibrating(state="failed", problem=_MOVED),
-    "calibration-result": _calibrating(state="finished", calibration_id="new", done=25),
+    "calibration-result": _calibrating(state="finished", calibration_id=_detail().id, done=25),
     "calibration-checked": _calibrating(
         kind="check", state="finished", check_id=_example("calibrations/checks")["items"][0]["id"]
     ),

@@ -232,6 +232,26 @@ describe("what came of it", () => {
   });
 });
 
+test("a taught socket is named by its car and taken back for that car", async () => {
+  const socket = {
+    ...FRESH,
+    kind: "socket",
+    error: 0.02,
+    error_in_use: 1.4,
+    evidence: null,
+    in_force: true,
+    values: { kind: "socket", vehicle_id: "zoe", socket: { x_mm: 120, y_mm: -4.5, z_mm: 0 } },
+  };
+  rest.answer("GET /calibrations?limit=20", [200, { items: [socket], next_cursor: null }]);
+  rest.answer(`GET /calibrations/${DETAIL.id}`, [200, socket]);
+  render(h(CalibrationBody, null));
+  show(null);
+  fireEvent.click(await screen.findByRole("button", { name: /Socket of Renault Zoe version 3/ }));
+  await screen.findByText("1.40 mm");
+  await press("Roll back");
+  await waitFor(() => expect(sent("POST /calibrations/roll-back")).toEqual({ kind: "socket", vehicle_id: "zoe" }));
+});
+
 test("a check shows its figures and where the robot came to", async () => {
   render(h(CalibrationBody, null));
   show(null);

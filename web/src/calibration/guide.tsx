@@ -1,13 +1,12 @@
 import { useSignal } from "@preact/signals";
 import { may } from "@/access/session";
-import { formatNumber } from "@/format";
 import { store } from "@/live/page";
 import { canAct } from "@/robot/view";
 import { say as bench } from "@/technician/words";
 import { begin, busy, close, vehicles } from "./desk";
 import { Drawing } from "./drawings";
 import { CameraSwitch } from "./picture";
-import { requestOf, textIn } from "./request";
+import { formatShort, requestOf, textIn } from "./request";
 import type { Typed, Wrong } from "./request";
 import { ROUTINES } from "./routines";
 import type { Description, Field } from "./routines";
@@ -53,7 +52,7 @@ export function Guide({ kind }: { kind: RoutineKind }) {
       )}
       <div class="calibration-fields">
         {cars.length > 1 && (
-          <label class="field">
+          <label class="field calibration-car">
             <span>{say.guide.car}</span>
             <select
               value={car?.id}
@@ -130,8 +129,6 @@ function FieldInput({ field, text, wrong, type }: FieldInputProps) {
     </label>
   );
 }
-
-const formatShort = (value: number): string => formatNumber(value, Number.isInteger(value) ? 0 : 2);
 
 /** Why it cannot begin now; the server looks at the rest. */
 function hindranceOf({ plugIn }: Description): string | null {

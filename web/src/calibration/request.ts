@@ -1,4 +1,5 @@
 /** From what was typed to the request that begins a routine. */
+import { formatNumber } from "@/format";
 import type { Description, Field } from "./routines";
 import type { RoutineKind } from "./types";
 
@@ -18,9 +19,13 @@ export function numberIn(text: string): number | null {
   return text.trim() === "" || !Number.isFinite(value) ? null : value;
 }
 
-export function textIn(field: Field, typed: Typed): string {
-  return typed[field.name] ?? field.initial;
+/** What was typed, or what stands there first. */
+export function textIn({ name, initial }: Field, typed: Typed): string {
+  return typed[name] ?? (initial === null ? "" : formatShort(initial));
 }
+
+/** A number with no more digits than it has, two at most. */
+export const formatShort = (value: number): string => formatNumber(value, Number.isInteger(value) ? 0 : 2);
 
 /** Reads every field of a routine. */
 export function requestOf(kind: RoutineKind, { fields }: Description, typed: Typed, vehicleId: string | null): Reading {

@@ -13,7 +13,8 @@ export interface Field {
   readonly name: keyof CalibrationWords["fields"];
   /** Where it stands in the request. A part of the request with an empty field is left out. */
   readonly path: readonly [string, ...string[]];
-  readonly initial: string;
+  /** What stands there first; null: nothing. */
+  readonly initial: number | null;
   readonly least: number;
   readonly most: number;
   readonly whole?: true;
@@ -30,8 +31,8 @@ export interface Description {
   readonly fieldHint?: keyof CalibrationWords["fieldHints"];
 }
 
-const sent_mm = { initial: "300", least: 50, most: 2000 } as const;
-const went_mm = { initial: "", least: 50, most: 2000 } as const;
+const sent_mm = { initial: 300, least: 50, most: 2000 } as const;
+const went_mm = { initial: null, least: 50, most: 2000 } as const;
 
 export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
   robot: {
@@ -44,7 +45,7 @@ export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
       { name: "leftWent", path: ["left_belt", "measured_mm"], ...went_mm },
       { name: "rightSent", path: ["right_belt", "commanded_mm"], ...sent_mm },
       { name: "rightWent", path: ["right_belt", "measured_mm"], ...went_mm },
-      { name: "label", path: ["label_sigma_mm"], initial: "0.15", least: 0.01, most: 2 },
+      { name: "label", path: ["label_sigma_mm"], initial: 0.15, least: 0.01, most: 2 },
     ],
     fieldHint: "belts",
   },
@@ -54,7 +55,7 @@ export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
     looks: 9,
     lookTakes_s: 55,
     plugIn: false,
-    fields: [{ name: "approaches", path: ["approaches"], initial: "3", least: 3, most: 30, whole: true }],
+    fields: [{ name: "approaches", path: ["approaches"], initial: 3, least: 3, most: 30, whole: true }],
   },
 };
 

@@ -59,11 +59,9 @@ function Version({ version, title }: { version: CalibrationDetail; title: string
       <p>
         <strong>{say.result.verdicts[grade]}</strong> {in_force ? say.result.inUse : say.result.unused}
       </p>
-      {error !== null && error_in_use !== null && (
-        <BeforeAfter title={say.result.compared[kind]} unit={unit} before={error_in_use} after={afterOf(version)} />
-      )}
-      {kind === "socket" && error !== null && (
-        <p class="soft small">{`${say.result.moved}: ${formatNumber(error, 2)} mm`}</p>
+      {kind === "socket" && <Taught version={version} />}
+      {kind !== "socket" && error !== null && error_in_use !== null && (
+        <BeforeAfter title={say.result.compared[kind]} unit={unit} before={error_in_use} after={error} />
       )}
       <Sentences title={say.result.remarks} sentences={remarks.map(remarkOf)} />
       {evidence !== null && values.kind === "robot" && <Residuals evidence={evidence} values={values} />}
@@ -77,8 +75,23 @@ function Version({ version, title }: { version: CalibrationDetail; title: string
   );
 }
 
-/** What the new one misses; a taught socket is what the other one is measured by. */
-const afterOf = ({ kind, error }: CalibrationDetail): number => (kind === "socket" ? 0 : (error ?? 0));
+/** A taught place is what others are measured by: what the one before missed, and whether it held still. */
+function Taught({ version: { error, error_in_use } }: { version: CalibrationDetail }) {
+  const lines = [
+    [say.result.missedBefore, error_in_use],
+    [say.result.moved, error],
+  ] as const;
+  return (
+    <dl class="list">
+      {lines.map(([name, value]) => (
+        <div key={name}>
+          <dt>{name}</dt>
+          <dd>{value === null ? say.unmeasured : `${formatNumber(value, 2)} mm`}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
 
 function Sentences({ title, sentences }: { title: string; sentences: readonly string[] }) {
   if (sentences.length === 0) return null;

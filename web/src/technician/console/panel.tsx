@@ -145,7 +145,6 @@ function Frames({ frames }: { frames: readonly ProtocolFrame[] }) {
     <ol
       ref={list}
       class="console-frames"
-      lang="en"
       tabIndex={0}
       aria-label={say.list}
       onScroll={({ currentTarget: box }) => {
@@ -154,7 +153,7 @@ function Frames({ frames }: { frames: readonly ProtocolFrame[] }) {
     >
       {frames.length === 0 && <li class="soft">{say.waiting}</li>}
       {frames.map((frame) => (
-        <li key={frame.number} data-direction={frame.direction} data-error={frame.error}>
+        <li key={frame.number} lang="en" data-direction={frame.direction} data-error={frame.error}>
           <time dateTime={frame.at}>{timeOf(frame.at)}</time>
           <span class="console-arrow">{frame.direction === "to_board" ? "→" : "←"}</span>
           <strong>{frame.kind}</strong> <span>{frame.words}</span>

@@ -115,8 +115,8 @@ export const calibration: CalibrationWords = {
     compared: {
       robot: "Fehler bei zurückgehaltenen Blicken",
       camera: "Fehler bei zurückgehaltenen Bildern",
-      socket: "Fehler quer zur Achse der Dose",
     },
+    missedBefore: "Der damals benutzte Ort lag daneben",
     before: "Die damals benutzte",
     after: "Diese",
     moved: "Beim Herausziehen bewegte sich die Marke",

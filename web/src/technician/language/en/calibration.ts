@@ -119,8 +119,8 @@ export const calibration = {
     compared: {
       robot: "What is missed on looks that were held back",
       camera: "What is missed on pictures that were held back",
-      socket: "What is missed across the socket’s axis",
     },
+    missedBefore: "The place in use then missed by",
     before: "The one in use then",
     after: "This one",
     moved: "The label moved while the plug was drawn",

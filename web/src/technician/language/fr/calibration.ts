@@ -115,8 +115,8 @@ export const calibration: CalibrationWords = {
     compared: {
       robot: "Erreur sur des regards mis de côté",
       camera: "Erreur sur des images mises de côté",
-      socket: "Erreur en travers de l’axe de la prise",
     },
+    missedBefore: "Erreur de la place utilisée alors",
     before: "Celui d’alors",
     after: "Celui-ci",
     moved: "L’étiquette a bougé au retrait du connecteur",

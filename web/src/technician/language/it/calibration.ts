@@ -115,8 +115,8 @@ export const calibration: CalibrationWords = {
     compared: {
       robot: "Errore su sguardi tenuti da parte",
       camera: "Errore su immagini tenute da parte",
-      socket: "Errore di traverso all’asse della presa",
     },
+    missedBefore: "Errore del posto in uso allora",
     before: "Quella in uso allora",
     after: "Questa",
     moved: "L’etichetta si è mossa all’estrazione",
