@@ -21,12 +21,15 @@ from server.jobs.model import JobPhase, JobState
 from server.schema.access import AccessSession, PersonSummary
 from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
+from server.schema.push import PushState, PushSubscription
 from server.schema.robot import Reach, WayLeft
 from server.schema.vehicles import Vehicle, VehicleList
 from tests.browser.scenes import LABEL_NOT_FOUND, SCENES, job
 
 STATIC_DIR = Path(__file__).resolve().parents[2] / "server" / "static"
 BEAT_S = 0.1
+
+PUSH_KEY = "BA1Hxzyi1RUM1b5wjxsn7nGxAszw2u61m164i3MrAIxHF6YK5h4SDYic-dRuU_RCPCfA5aq9ojSwk5Y2EmClBPs"
 
 VEHICLES = VehicleList(
     items=[
@@ -77,6 +80,7 @@ class Stage:
         live: The state that every page sees.
         requests: Method and path of every REST call, in order.
         session: Who looks at the page.
+        subscription: Where the browser wants to be notified.
         refuse_jobs: Answer new jobs with a problem.
     """
 
@@ -84,10 +88,14 @@ class Stage:
         self.live: Live = SCENES["ready"]
         self.session = OWNER
         self.requests: list[str] = []
+        self.subscription: PushSubscription | None = None
         self.refuse_jobs = False
         self.app = FastAPI()
         self.app.include_router(pages_router(static_dir))
         self.app.websocket("/api/v1/ws")(self._send_live)
+        self.app.get("/api/v1/push")(self._push)
+        self.app.put("/api/v1/push", status_code=204)(self._subscribe)
+        self.app.delete("/api/v1/push", status_code=204)(self._unsubscribe)
         self.app.get("/api/v1/access/session")(self._session)
         self.app.get("/api/v1/access/{entries}")(self._nothing)
         self.app.get("/api/v1/vehicles")(self._vehicles)
@@ -131,6 +139,15 @@ class Stage:
     async def _nothing(self, entries: str) -> dict[str, object]:
         del entries
         return {"items": [], "next_cursor": None}
+
+    async def _push(self) -> PushState:
+        return PushState(public_key=PUSH_KEY, subscribed=self.subscription is not None)
+
+    async def _subscribe(self, wanted: PushSubscription) -> None:
+        self.subscription = wanted
+
+    async def _unsubscribe(self) -> None:
+        self.subscription = None
 
     async def _vehicles(self) -> VehicleList:
         return VEHICLES
