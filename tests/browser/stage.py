@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import socket
 import threading
 from collections.abc import Iterator
@@ -81,6 +82,7 @@ class Stage:
         requests: Method and path of every REST call, in order.
         session: Who looks at the page.
         subscription: Where the browser wants to be notified.
+        stops: How many have come, either way. None is confirmed over the WebSocket.
         refuse_jobs: Answer new jobs with a problem.
     """
 
@@ -90,6 +92,7 @@ class Stage:
         self.requests: list[str] = []
         self.subscription: PushSubscription | None = None
         self.refuse_jobs = False
+        self.stops = 0
         self.app = FastAPI()
         self.app.include_router(pages_router(static_dir))
         self.app.websocket("/api/v1/ws")(self._send_live)
@@ -109,16 +112,17 @@ class Stage:
         await connection.accept()
         shown = self.live
         sequence = 1
-        snapshot = SnapshotMessage(sequence=sequence, live=shown)
+        snapshot = SnapshotMessage(sequence=sequence, sent_s=_now_s(), live=shown)
         with suppress(WebSocketDisconnect):
             await connection.send_text(snapshot.model_dump_json())
             while True:
                 with suppress(TimeoutError):
-                    await asyncio.wait_for(connection.receive_text(), BEAT_S)
+                    said = await asyncio.wait_for(connection.receive_text(), BEAT_S)
+                    self.stops += json.loads(said)["type"] == "stop"
                 sequence += 1
                 changes = self._changes(shown, sequence)
                 shown = self.live
-                delta = DeltaMessage(sequence=sequence, changes=changes)
+                delta = DeltaMessage(sequence=sequence, sent_s=_now_s(), changes=changes)
                 unchanged = set(LiveChanges.model_fields) - changes.model_fields_set
                 await connection.send_text(delta.model_dump_json(exclude={"changes": unchanged}))
 
@@ -167,11 +171,16 @@ class Stage:
 
     async def _accept(self, request: Request, rest: str) -> JSONResponse:
         self.requests.append(f"{request.method} /{rest}")
+        self.stops += rest == "robot/stop"
         if rest == "jobs" and self.refuse_jobs:
             return JSONResponse(
                 LABEL_NOT_FOUND.model_dump(), 409, media_type="application/problem+json"
             )
         return JSONResponse({}, 202)
+
+
+def _now_s() -> float:
+    return asyncio.get_running_loop().time()
 
 
 @contextmanager

@@ -21,7 +21,8 @@ from cryptography.hazmat.primitives.serialization import Encoding, PublicFormat
 from fastapi import FastAPI, Request, Response
 
 from server.schema.push import PushLanguage, PushSubscription
-from server.tls.authority import ROOT_FILE, Authority
+from server.tls.authority import Authority
+from server.tls.places import ROOT_FILE
 from tests.support.fake_stations.serving import serving
 
 

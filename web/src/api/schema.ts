@@ -2593,6 +2593,12 @@ export interface components {
          */
         readonly DeltaMessage: {
             readonly changes: components["schemas"]["LiveChanges"];
+            /**
+             * Sent S
+             * @description Seconds of a clock that never jumps, of any beginning: whoever receives messages ever later sees the past
+             * @default null
+             */
+            readonly sent_s?: number | null;
             /** Sequence */
             readonly sequence: number;
             /**
@@ -4844,6 +4850,12 @@ export interface components {
          */
         readonly SnapshotMessage: {
             readonly live: components["schemas"]["Live"];
+            /**
+             * Sent S
+             * @description Seconds of a clock that never jumps, of any beginning: whoever receives messages ever later sees the past
+             * @default null
+             */
+            readonly sent_s?: number | null;
             /** Sequence */
             readonly sequence: number;
             /**
