@@ -123,12 +123,12 @@ class LiveHub:
 
     def _snapshot(self, sequence: int) -> bytes:
         live = _object({name: section.json for name, section in self._sections.items()})
-        return b'{"type":"snapshot","version":%d,"sequence":%d,"stale_after_s":%.1f,"live":%s}' % (
+        head = b'{"type":"snapshot","version":%d,"sequence":%d,"stale_after_s":%.1f' % (
             PROTOCOL_VERSION,
             sequence,
             STALE_AFTER_S,
-            live,
         )
+        return b'%s,"sent_s":%.3f,"live":%s}' % (head, _now_s(), live)
 
     def _cancel_timer(self) -> None:
         if self._timer is not None:
@@ -148,7 +148,12 @@ def _tell(watchers: list[asyncio.Event]) -> None:
 
 
 def _delta(sequence: int, changes: Mapping[str, bytes]) -> bytes:
-    return b'{"type":"delta","sequence":%d,"changes":%s}' % (sequence, _object(changes))
+    head = b'{"type":"delta","sequence":%d,"sent_s":%.3f' % (sequence, _now_s())
+    return b'%s,"changes":%s}' % (head, _object(changes))
+
+
+def _now_s() -> float:
+    return asyncio.get_running_loop().time()
 
 
 def _object(members: Mapping[str, bytes]) -> bytes:

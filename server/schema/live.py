@@ -82,6 +82,11 @@ class SnapshotMessage(Wire):
     version: Literal[1] = PROTOCOL_VERSION
     sequence: int
     stale_after_s: float = 1.0
+    sent_s: float | None = Field(
+        default=None,
+        description="Seconds of a clock that never jumps, of any beginning: whoever receives "
+        "messages ever later sees the past",
+    )
     live: Live
 
 
@@ -90,6 +95,11 @@ class DeltaMessage(Wire):
 
     type: Literal["delta"] = "delta"
     sequence: int
+    sent_s: float | None = Field(
+        default=None,
+        description="Seconds of a clock that never jumps, of any beginning: whoever receives "
+        "messages ever later sees the past",
+    )
     changes: LiveChanges
 
 

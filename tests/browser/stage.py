@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import socket
 import threading
 from collections.abc import Iterator
@@ -21,6 +22,7 @@ from server.jobs.model import JobPhase, JobState
 from server.schema.access import AccessSession, PersonSummary
 from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
+from server.schema.push import PushState, PushSubscription
 from server.schema.robot import Reach, WayLeft
 from server.schema.vehicles import Vehicle, VehicleList
 from tests.browser.bench_scenes import answer, picture
@@ -28,6 +30,8 @@ from tests.browser.scenes import LABEL_NOT_FOUND, SCENES, job
 
 STATIC_DIR = Path(__file__).resolve().parents[2] / "server" / "static"
 BEAT_S = 0.1
+
+PUSH_KEY = "BA1Hxzyi1RUM1b5wjxsn7nGxAszw2u61m164i3MrAIxHF6YK5h4SDYic-dRuU_RCPCfA5aq9ojSwk5Y2EmClBPs"
 
 VEHICLES = VehicleList(
     items=[
@@ -78,6 +82,8 @@ class Stage:
         live: The state that every page sees.
         requests: Method and path of every REST call, in order.
         session: Who looks at the page.
+        subscription: Where the browser wants to be notified.
+        stops: How many have come, either way. None is confirmed over the WebSocket.
         refuse_jobs: Answer new jobs with a problem.
     """
 
@@ -85,10 +91,15 @@ class Stage:
         self.live: Live = SCENES["ready"]
         self.session = OWNER
         self.requests: list[str] = []
+        self.subscription: PushSubscription | None = None
         self.refuse_jobs = False
+        self.stops = 0
         self.app = FastAPI()
         self.app.include_router(pages_router(static_dir))
         self.app.websocket("/api/v1/ws")(self._send_live)
+        self.app.get("/api/v1/push")(self._push)
+        self.app.put("/api/v1/push", status_code=204)(self._subscribe)
+        self.app.delete("/api/v1/push", status_code=204)(self._unsubscribe)
         self.app.get("/api/v1/access/session")(self._session)
         self.app.get("/api/v1/access/{entries}")(self._nothing)
         self.app.get("/api/v1/vehicles")(self._vehicles)
@@ -104,16 +115,17 @@ class Stage:
         await connection.accept()
         shown = self.live
         sequence = 1
-        snapshot = SnapshotMessage(sequence=sequence, live=shown)
+        snapshot = SnapshotMessage(sequence=sequence, sent_s=_now_s(), live=shown)
         with suppress(WebSocketDisconnect):
             await connection.send_text(snapshot.model_dump_json())
             while True:
                 with suppress(TimeoutError):
-                    await asyncio.wait_for(connection.receive_text(), BEAT_S)
+                    said = await asyncio.wait_for(connection.receive_text(), BEAT_S)
+                    self.stops += json.loads(said)["type"] == "stop"
                 sequence += 1
                 changes = self._changes(shown, sequence)
                 shown = self.live
-                delta = DeltaMessage(sequence=sequence, changes=changes)
+                delta = DeltaMessage(sequence=sequence, sent_s=_now_s(), changes=changes)
                 unchanged = set(LiveChanges.model_fields) - changes.model_fields_set
                 await connection.send_text(delta.model_dump_json(exclude={"changes": unchanged}))
 
@@ -134,6 +146,15 @@ class Stage:
     async def _nothing(self, entries: str) -> dict[str, object]:
         del entries
         return {"items": [], "next_cursor": None}
+
+    async def _push(self) -> PushState:
+        return PushState(public_key=PUSH_KEY, subscribed=self.subscription is not None)
+
+    async def _subscribe(self, wanted: PushSubscription) -> None:
+        self.subscription = wanted
+
+    async def _unsubscribe(self) -> None:
+        self.subscription = None
 
     async def _vehicles(self) -> VehicleList:
         return VEHICLES
@@ -162,11 +183,16 @@ class Stage:
 
     async def _accept(self, request: Request, rest: str) -> JSONResponse:
         self.requests.append(f"{request.method} /{rest}")
+        self.stops += rest == "robot/stop"
         if rest == "jobs" and self.refuse_jobs:
             return JSONResponse(
                 LABEL_NOT_FOUND.model_dump(), 409, media_type="application/problem+json"
             )
         return JSONResponse({}, 202)
+
+
+def _now_s() -> float:
+    return asyncio.get_running_loop().time()
 
 
 @contextmanager

@@ -13,12 +13,14 @@ import { RobotCard } from "@/parts/robot-card";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
 import { useStopKey } from "@/parts/stop-key";
+import { useTitle } from "@/parts/title";
 import { TwinAlarm } from "@/parts/twin-alarm";
 import { Views } from "@/parts/views";
 
 /** The home page. */
 export function App() {
   useStopKey();
+  useTitle();
   return (
     <>
       <Header />

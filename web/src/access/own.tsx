@@ -12,6 +12,7 @@ import {
 import type { Invitation } from "./calls";
 import { SureButton, useList } from "./menu";
 import type { Run } from "./menu";
+import { Notifications } from "./notifications";
 import { Shown } from "./people";
 import { enter, session } from "./session";
 import { say } from "./words";
@@ -47,6 +48,7 @@ export function Own({ run, onGone }: { run: Run; onGone: () => void }) {
       >
         {say.own.another}
       </button>
+      <Notifications run={run} />
       <p class="soft">{possible ? say.own.passkeyHint : say.own.passkeyNeeds}</p>
       <ul class="entries">
         {passkeys.value?.map((passkey) => (

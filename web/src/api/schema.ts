@@ -2756,6 +2756,12 @@ export interface components {
          */
         readonly DeltaMessage: {
             readonly changes: components["schemas"]["LiveChanges"];
+            /**
+             * Sent S
+             * @description Seconds of a clock that never jumps, of any beginning: whoever receives messages ever later sees the past
+             * @default null
+             */
+            readonly sent_s?: number | null;
             /** Sequence */
             readonly sequence: number;
             /**
@@ -5386,6 +5392,12 @@ export interface components {
          */
         readonly SnapshotMessage: {
             readonly live: components["schemas"]["Live"];
+            /**
+             * Sent S
+             * @description Seconds of a clock that never jumps, of any beginning: whoever receives messages ever later sees the past
+             * @default null
+             */
+            readonly sent_s?: number | null;
             /** Sequence */
             readonly sequence: number;
             /**

@@ -58,6 +58,10 @@ async function register(): Promise<void> {
   registration.addEventListener("updatefound", () => {
     registration.installing?.addEventListener("statechange", look);
   });
+  if ("Notification" in window && Notification.permission === "granted") {
+    // What fails now is tried again when the page is opened the next time.
+    void import("./push").then(({ renew }) => renew()).catch(() => undefined);
+  }
   // A page that stays open for weeks asks when it comes back to the robot.
   effect(() => {
     if (store.link.value === "live") void registration.update().catch(() => undefined);

@@ -3,6 +3,7 @@ import { batch, computed, signal } from "@preact/signals";
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import { PROTOCOL_VERSION } from "@/api/wire";
 import type { DeltaMessage, Live, SnapshotMessage } from "@/api/wire";
+import { Lateness } from "./lateness";
 
 export type Link = "connecting" | "live" | "lost";
 
@@ -46,10 +47,15 @@ export class LiveStore {
   private robotStampAtMs = 0;
   private notLiveSinceMs: number | null = null;
   private readonly silent: Signal<boolean> = signal(false);
+  /** Messages come, but too late. */
+  private readonly late: Signal<boolean> = signal(false);
+  private readonly lateness = new Lateness();
 
   constructor() {
     this.stale = computed(
-      () => this.live.value !== null && (this.link.value !== "live" || this.silent.value),
+      () =>
+        this.live.value !== null &&
+        (this.link.value !== "live" || this.silent.value || this.late.value),
     );
   }
 
@@ -63,6 +69,10 @@ export class LiveStore {
       this.staleAfterMs = (message.stale_after_s ?? DEFAULT_STALE_AFTER_MS / 1000) * 1000;
       this.sequence = message.sequence;
       this.link.value = "live";
+      // The server's clock may have begun anew with it.
+      const startedAt = message.live.service.started_at;
+      if (startedAt !== this.live.value?.service.started_at) this.lateness.forget();
+      this.judge(message.sent_s, nowMs);
       this.take(message.live, nowMs);
     });
   }
@@ -73,6 +83,7 @@ export class LiveStore {
     if (known === null || this.link.value !== "live" || message.sequence <= this.sequence) return;
     batch(() => {
       this.sequence = message.sequence;
+      this.judge(message.sent_s, nowMs);
       this.take(merge(known, message.changes), nowMs);
     });
   }
@@ -99,6 +110,11 @@ export class LiveStore {
       this.unreachable.value =
         this.notLiveSinceMs !== null && nowMs - this.notLiveSinceMs > UNREACHABLE_AFTER_MS;
     });
+  }
+
+  private judge(sent_s: number | null | undefined, nowMs: number): void {
+    if (sent_s == null) return;
+    this.late.value = this.lateness.lateMs(sent_s * 1000, nowMs) > this.staleAfterMs;
   }
 
   private take(live: Live, nowMs: number): void {

@@ -115,6 +115,14 @@ export const access: AccessWords = {
     download: "Alles herunterladen",
     times: (count) => plural(count, { one: "einmal", other: "#-mal" }),
   },
+  push: {
+    begin: "Auf diesem Gerät benachrichtigen",
+    stop: "Nicht mehr benachrichtigen",
+    off: "Dieses Gerät kann Ihnen melden, wenn das Auto geladen ist, wenn etwas nicht geklappt hat und wenn der Roboter Sie braucht.",
+    on: "Dieses Gerät meldet Ihnen, wenn das Auto geladen ist, wenn etwas nicht geklappt hat und wenn der Roboter Sie braucht.",
+    blocked: "Dieser Browser sperrt Benachrichtigungen dieser Seite. In seinen Einstellungen lassen sie sich wieder erlauben.",
+    impossible: "Benachrichtigungen brauchen https und einen Browser, der das kann. Sonst zeigt diese Seite, was geschieht, solange sie offen ist.",
+  },
   own: {
     you: (name, role) => `Sie sind ${name} (${role}).`,
     another: "Ein weiteres Gerät von mir koppeln",

@@ -114,6 +114,14 @@ export const access = {
     download: "Download all",
     times: (count: number): string => plural(count, { one: "once", other: "# times" }),
   },
+  push: {
+    begin: "Notify me on this device",
+    stop: "Do not notify me any more",
+    off: "This device can tell you when the car is charged, when something did not work, and when the robot needs you.",
+    on: "This device tells you when the car is charged, when something did not work, and when the robot needs you.",
+    blocked: "This browser blocks notifications of this page. Its settings allow them again.",
+    impossible: "Notifications need https and a browser that can. Without, this page shows what happens as long as it is open.",
+  },
   own: {
     you: (name: string, role: string): string => `You are ${name} (${role.toLowerCase()}).`,
     another: "Pair another device of mine",

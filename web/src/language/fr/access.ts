@@ -118,6 +118,14 @@ export const access: AccessWords = {
     download: "Tout télécharger",
     times: (count) => plural(count, { one: "# fois", other: "# fois" }),
   },
+  push: {
+    begin: "Me notifier sur cet appareil",
+    stop: "Ne plus me notifier",
+    off: "Cet appareil peut vous prévenir quand la voiture est chargée, quand quelque chose n’a pas marché et quand le robot a besoin de vous.",
+    on: "Cet appareil vous prévient quand la voiture est chargée, quand quelque chose n’a pas marché et quand le robot a besoin de vous.",
+    blocked: "Ce navigateur bloque les notifications de cette page. Ses réglages permettent de les autoriser.",
+    impossible: "Les notifications demandent https et un navigateur qui les connaît. Sinon, cette page montre ce qui se passe tant qu’elle est ouverte.",
+  },
   own: {
     you: (name, role) => `Vous êtes ${name} (${role.toLowerCase()}).`,
     another: "Associer un autre de mes appareils",

@@ -115,6 +115,14 @@ export const access: AccessWords = {
     download: "Scarica tutto",
     times: (count) => plural(count, { one: "una volta", other: "# volte" }),
   },
+  push: {
+    begin: "Avvisami su questo dispositivo",
+    stop: "Non avvisarmi più",
+    off: "Questo dispositivo può avvisare quando l’auto è carica, quando qualcosa non ha funzionato e quando il robot ha bisogno di aiuto.",
+    on: "Questo dispositivo avvisa quando l’auto è carica, quando qualcosa non ha funzionato e quando il robot ha bisogno di aiuto.",
+    blocked: "Questo browser blocca le notifiche di questa pagina. Le sue impostazioni permettono di riattivarle.",
+    impossible: "Le notifiche richiedono https e un browser che le conosca. Altrimenti questa pagina mostra che cosa succede finché è aperta.",
+  },
   own: {
     you: (name, role) => `${name} (${role.toLowerCase()})`,
     another: "Abbina un altro mio dispositivo",
