@@ -106,10 +106,9 @@ class RoutineDesk:
         What it had seen is gone: nobody knows whether the car has moved meanwhile. What it has
         found is a version, or none: there is nothing in between.
         """
-        kept = await self._notes.read(NOTE)
-        if kept is None:
+        before = await self._notes.read_as(Routine, NOTE)
+        if before is None:
             return
-        before = Routine.model_validate(kept)
         if before.state in {"running", "interrupted"}:
             lost = RoutineLostError(
                 "What it had seen is given up, because nobody knows whether the car has moved "
