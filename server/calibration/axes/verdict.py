@@ -28,7 +28,7 @@ def judge_switches(spread: Mapping[str, Estimate]) -> Verdict:
         if grades[-1] is not Grade.GOOD:
             remarks.append(
                 f"The {carriage} switch closes within {found.value:.2f} mm only: fasten it, and "
-                "look for play of its lever."
+                "look for play of its lever. If the car has moved meanwhile, measure again."
             )
     return worst(grades), tuple(remarks)
 

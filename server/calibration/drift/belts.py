@@ -60,7 +60,7 @@ class LookPair:
 class SeenShift(BaseModel):
     """What one job left over: ``shift_mm`` = ``by_belts`` d + ``by_label_mm`` (s - 1) + noise."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     vehicle_id: str
     shift_mm: tuple[float, float]
@@ -80,7 +80,7 @@ class BeltMemory(BaseModel):
         recent: The last shifts.
     """
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     vehicles: tuple[str, ...] = ()
     state: tuple[float, ...] = (0.0, 0.0)

@@ -23,7 +23,7 @@ class DriftMemory(BaseModel):
         insertions: What the pushes say, by vehicle.
     """
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     measured: PlanarAsBuilt | None = None
     measured_error_mm: float | None = None

@@ -113,9 +113,7 @@ class SelfCalibration:
 
     async def start(self) -> None:
         """Remember what was learnt before."""
-        kept = await self._notes.read(NOTE)
-        if kept is not None:
-            self._memory = DriftMemory.model_validate(kept)
+        self._memory = await self._notes.read_as(DriftMemory, NOTE) or self._memory
         self._begin_anew_if_changed()
         self._known = {vehicle.id: vehicle for vehicle in await self._vehicles.all()}
 

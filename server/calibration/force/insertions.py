@@ -40,7 +40,7 @@ class Insertions(BaseModel):
         offsets_mm: How far beside the measured place the last plugs went in, right and up.
     """
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     first: tuple[Curve, ...] = ()
     recent: tuple[Curve, ...] = ()

@@ -12,13 +12,13 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from server.calibration.accuracy.verdict import REQUIRED_MM, judge_places
+from server.calibration.grade import Grade
 from server.schema.accuracy import AccuracyCheck, CheckedPlace
 from server.schema.calibrations import Calibration
 
 A4_INCH = (8.27, 11.69)
 INK, SOFT, BELOW, ABOVE = "#1c2733", "#6b7785", "#1f6feb", "#d9480f"
-REQUIRED_MM = 0.5
-"""Location accuracy that the robot's design asks for (0.5 +-0.1 mm)."""
 MAGNIFIED = 200
 """So many times larger than the way between places their errors are drawn."""
 _COLUMNS = ("Place", "x mm", "y mm", "AP mm", "RP mm", "vAP mm", "Approaches")
@@ -75,7 +75,7 @@ def _write_head(figure: Figure, check: AccuracyCheck, calibration: Calibration |
         left = 0.09 + 0.28 * number
         figure.text(left, 0.785, f"{value_mm:.3f} mm", fontsize=17, weight="bold", color=INK)
         figure.text(left, 0.767, f"largest {name}: {meaning}", fontsize=8, color=SOFT)
-    good = check.accuracy_mm + check.repeatability_mm <= REQUIRED_MM
+    good = judge_places(check.places)[0] is Grade.GOOD
     verdict = "is within" if good else "is NOT within"
     figure.text(
         0.09,

@@ -20,7 +20,7 @@ from server.calibration.routines.errors import (
     RoutineLostError,
     RoutineRunningError,
 )
-from server.calibration.routines.figures import figures_of
+from server.calibration.routines.figures import figures_of, verdict_of
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.routine import AnyRoutine
 from server.calibration.routines.stand import Stand
@@ -106,10 +106,9 @@ class RoutineDesk:
         What it had seen is gone: nobody knows whether the car has moved meanwhile. What it has
         found is a version, or none: there is nothing in between.
         """
-        kept = await self._notes.read(NOTE)
-        if kept is None:
+        before = await self._notes.read_as(Routine, NOTE)
+        if before is None:
             return
-        before = Routine.model_validate(kept)
         if before.state in {"running", "interrupted"}:
             lost = RoutineLostError(
                 "What it had seen is given up, because nobody knows whether the car has moved "
@@ -123,6 +122,7 @@ class RoutineDesk:
 
     def _show(self, routine: AnyRoutine) -> Routine:
         progress = self._progress
+        verdict, remarks = verdict_of(self._found)
         return Routine(
             kind=routine.request.kind,
             state=self._state,
@@ -136,8 +136,8 @@ class RoutineDesk:
             check_id=self._check,
             problem=problem_from(self._problem) if self._problem else None,
             asks=progress.asks,
-            verdict=self._found.grade if isinstance(self._found, NewCalibration) else None,
-            remarks=list(self._found.remarks) if isinstance(self._found, NewCalibration) else [],
+            verdict=verdict,
+            remarks=list(remarks),
             figures=figures_of(self._found) if self._found else [],
         )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from server.calibration.accuracy.verdict import judge_places
+from server.calibration.grade import Grade
 from server.calibration.routines.check_routine import CheckResult
 from server.calibration.versions.service import NewCalibration
 from server.schema.calibrations import (
@@ -20,6 +22,17 @@ def figures_of(found: NewCalibration | CheckResult) -> list[RoutineFigure]:
     if isinstance(found, CheckResult):
         return _of_check(found)
     return [*_of_values(found), *_misses(found)]
+
+
+def verdict_of(
+    found: NewCalibration | CheckResult | None,
+) -> tuple[Grade | None, tuple[str, ...]]:
+    """What that is worth, and what to mend."""
+    if found is None:
+        return None, ()
+    if isinstance(found, CheckResult):
+        return judge_places(found.places)
+    return found.grade, found.remarks
 
 
 def _of_values(found: NewCalibration) -> list[RoutineFigure]:

@@ -342,5 +342,5 @@ def _evidence_of(stored: StoredCalibration) -> RobotEvidence | None:
 
 
 def _figures(comparison: Comparison) -> dict[str, float | None]:
-    unit = comparison.kind.unit
+    unit = comparison.kind.unit.lower()
     return {f"error_{unit}": comparison.candidate, f"in_force_{unit}": comparison.in_force}

@@ -126,3 +126,24 @@ def test_pairs_of_looks_are_from_places_far_apart() -> None:
     pair: LookPair = job(as_drawn(1), measured)
     assert np.linalg.norm(pair.first.label_mm - pair.last.label_mm) > 40
     assert np.isfinite(measured.inverse_many(PARKED)).all()
+
+
+def test_a_label_that_is_knocked_off_by_5_mm_teaches_nothing() -> None:
+    async def scenario(scene: Scene) -> None:
+        services, world = scene.services, scene.garage.world
+        known = after_jobs(30, 0.0)
+        await learnt(scene, known)
+        label = world.car.T_base_label.copy()
+        label[0, 3] += 5.0
+        world.put_car(replace(world.car, T_base_label=label))
+        job_ = await scene.carried_out(JobType.PLUG_IN)
+        assert job_.state is JobState.FAILED
+        assert job_.error is not None
+        await services.self_calibration.settled()
+        report = services.self_calibration.report
+        assert services.self_calibration._memory.belts == known
+        assert report.insertions == []
+        assert services.calibrations.in_force.sockets == ()
+        assert services.calibrations.robot_in_force is None
+
+    on_scene(scenario, seed=2)
