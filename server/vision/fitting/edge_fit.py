@@ -197,9 +197,9 @@ def _result(solved: RobustStep, fine: FineFit, edges: CodeEdges) -> EdgeFit:
     edge_count = len(edges.points_mm)
     return EdgeFit(
         T_camera_label=fine.pose,
-        covariance=fit_covariance(solved, edges, float(fine.pose[2, 3])),
+        covariance=fit_covariance(solved, edges),
         rms_px=solved.rms_px,
-        inlier_share=float(np.sum(solved.weights > 0.1)) / edge_count,
+        inlier_share=fine.inlier_share(solved),
         edge_count=edge_count,
         spread_px=fine.spread_px,
         bow_px=coherent_rest_px(solved, edges),

@@ -9,6 +9,7 @@ from drivers.camera import CameraModel
 from server.vision.fitting.bending import significant_bends
 from server.vision.fitting.blurred_code import BlurredCode
 from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.covered_edges import AGREES, covered_edges
 from server.vision.fitting.edge_profiles import EdgeOffsets, edge_offsets
 from server.vision.fitting.edge_spread import spread_basis
 from server.vision.fitting.light_field import LightField, light_field
@@ -73,6 +74,9 @@ class FineFit:
         self._levels = None if self._light is None else self._light.levels(edges)
         self._blurred: BlurredCode | None = None
         self._bend: Array | None = None
+        self._covered: NDArray[np.bool_] | None = None
+        self._looked_for_cover = False
+        self._agreed_beside_cover = 0
         self.bend_px = 0.0
         """Largest shift of an edge because the label is not flat."""
         flows = _neighbours_flow_in(measured, few.upright, self._module_px)
@@ -82,6 +86,14 @@ class FineFit:
     def spread_px(self) -> float:
         """Edge spread in the code's middle."""
         return float(self._spread[0])
+
+    def inlier_share(self, solved: RobustStep) -> float:
+        """Share of the edges that agree with a step, 0 to 1.
+
+        Edges beside a cover that seemed to agree before they were left out are among them.
+        """
+        agreeing = int(np.count_nonzero(solved.weights > AGREES)) + self._agreed_beside_cover
+        return agreeing / len(self._edges.points_mm)
 
     @property
     def _module_px(self) -> float:
@@ -95,7 +107,7 @@ class FineFit:
     def step(self) -> tuple[RobustStep, float] | None:
         """One step, and how far it moved the farthest edge [px]; None where it leads nowhere."""
         spread_px = self._spread @ self._basis
-        self.measured = edge_offsets(
+        measured = edge_offsets(
             self._picture,
             self._camera,
             self._edges,
@@ -107,6 +119,9 @@ class FineFit:
             row_way=self._row_way if self._moving else None,
             expected=self._blurred,
         )
+        if self._covered is not None:
+            measured = measured._replace(visible=measured.visible & ~self._covered)
+        self.measured = measured
         others = [self._basis]
         if self._moving:
             others.append(self.measured.by_row_way)
@@ -126,6 +141,12 @@ class FineFit:
 
     def learn(self, solved: RobustStep) -> bool:
         """After a short step: see what the picture holds besides; whether to go on stepping."""
+        if not self._looked_for_cover:
+            self._looked_for_cover = True
+            covered = covered_edges(self._edges, solved)
+            if covered is not None:
+                self._leave_out(covered, solved)
+                return True
         if self._looks > 0:
             self._looks -= 1
             light = light_field(self._edges, self.measured)
@@ -137,6 +158,16 @@ class FineFit:
             self._bend = self._best_of(bends) if len(bends) > 1 else next(iter(bends), None)
             return self._bend is not None
         return False
+
+    def _leave_out(self, covered: NDArray[np.bool_], solved: RobustStep) -> None:
+        self._covered = covered
+        self._agreed_beside_cover = int(
+            np.count_nonzero(covered[solved.used] & (solved.weights > AGREES))
+        )
+        clear = self.measured._replace(visible=self.measured.visible & ~covered)
+        light = light_field(self._edges, clear)
+        if light is not None:
+            self._levels = light.levels(self._edges)
 
     def _best_of(self, bends: list[Array]) -> Array | None:
         """The bend that leaves the smallest residuals, those of the loose part included."""
