@@ -75,10 +75,12 @@ class FineFit:
         self._blurred: BlurredCode | None = None
         self._bend: Array | None = None
         self._covered: NDArray[np.bool_] | None = None
-        self._looked_for_cover = False
         self._agreed_beside_cover = 0
+        self.before_cover: RobustStep | None = None
+        """The last step with the edges beside a cover, if there is one."""
+        self._most_bend_px = 0.0
         self.bend_px = 0.0
-        """Largest shift of an edge because the label is not flat."""
+        """Largest shift of an edge because the label is not flat, with a cover or without."""
         flows = _neighbours_flow_in(measured, few.upright, self._module_px)
         self._looks = BLUR_LOOKS if flows and self._light is not None else 0
 
@@ -136,17 +138,11 @@ class FineFit:
         if self._moving:
             self._row_way = self._row_way + solved.step[lasting - 2 : lasting]
         bend = solved.design[:, lasting:] @ solved.step[lasting:]
-        self.bend_px = float(np.max(np.abs(bend), initial=0.0))
+        self.bend_px = float(np.max(np.abs(bend), initial=self._most_bend_px))
         return solved, solved.moved_px(lasting)
 
     def learn(self, solved: RobustStep) -> bool:
         """After a short step: see what the picture holds besides; whether to go on stepping."""
-        if not self._looked_for_cover:
-            self._looked_for_cover = True
-            covered = covered_edges(self._edges, solved)
-            if covered is not None:
-                self._leave_out(covered, solved)
-                return True
         if self._looks > 0:
             self._looks -= 1
             light = light_field(self._edges, self.measured)
@@ -156,11 +152,19 @@ class FineFit:
         if self._bend is None:
             bends = significant_bends(solved, self.measured, self._edges, self.pose)
             self._bend = self._best_of(bends) if len(bends) > 1 else next(iter(bends), None)
-            return self._bend is not None
+            if self._bend is not None:
+                return True
+        if self.before_cover is None:
+            covered = covered_edges(self._edges, solved)
+            if covered is not None:
+                self._leave_out(covered, solved)
+                return True
         return False
 
     def _leave_out(self, covered: NDArray[np.bool_], solved: RobustStep) -> None:
-        self._covered = covered
+        """Go on without the edges beside a cover, and ask anew for a bend: it may have been that."""
+        self.before_cover, self._covered, self._bend = solved, covered, None
+        self._most_bend_px = self.bend_px
         self._agreed_beside_cover = int(
             np.count_nonzero(covered[solved.used] & (solved.weights > AGREES))
         )
