@@ -162,7 +162,7 @@ class FineFit:
         return False
 
     def _leave_out(self, covered: NDArray[np.bool_], solved: RobustStep) -> None:
-        """Go on without the edges beside a cover, and ask anew for a bend: it may have been that."""
+        """Go on without the edges beside a cover, which may have looked like a bend."""
         self.before_cover, self._covered, self._bend = solved, covered, None
         self._most_bend_px = self.bend_px
         self._agreed_beside_cover = int(
