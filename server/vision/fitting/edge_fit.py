@@ -195,14 +195,17 @@ def finish(
 def _result(solved: RobustStep, fine: FineFit, edges: CodeEdges) -> EdgeFit:
     """Pose, covariance and what the gates want to know of the last step."""
     edge_count = len(edges.points_mm)
+    bow_px = coherent_rest_px(solved, edges)
+    if fine.before_cover is not None:  # what comes off or is pasted over looks like a cover, too
+        bow_px = max(bow_px, coherent_rest_px(fine.before_cover, edges))
     return EdgeFit(
         T_camera_label=fine.pose,
-        covariance=fit_covariance(solved, edges, float(fine.pose[2, 3])),
+        covariance=fit_covariance(solved, edges),
         rms_px=solved.rms_px,
-        inlier_share=float(np.sum(solved.weights > 0.1)) / edge_count,
+        inlier_share=fine.inlier_share(solved),
         edge_count=edge_count,
         spread_px=fine.spread_px,
-        bow_px=coherent_rest_px(solved, edges),
+        bow_px=bow_px,
         bend_px=fine.bend_px,
         solved=solved,
         measured=fine.measured,

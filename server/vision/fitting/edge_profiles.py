@@ -123,14 +123,14 @@ def edge_offsets(
     middle = pixels - picture.left_top_px[:, None] + normal * spread_px
     forward = normal * reach
     beside = along * edges.length_mm
-    extent = np.abs(forward) + np.abs(beside) / 3
+    extent = np.abs(forward) * sampling.steps[-1] + np.abs(beside) / 3
     last = np.array(picture.light.shape[::-1])[:, None] - 1
     inside = (middle >= extent) & (middle + extent <= last)
     visible = inside[0] & inside[1]
     grey = _profiles(picture.light, middle, beside, forward, sampling)
     if inverted:
         grey = 255 - grey
-    black, white = grey[0].astype(np.float64), grey[-1].astype(np.float64)
+    black, white = grey[1].astype(np.float64), grey[-2].astype(np.float64)
     if levels is not None:
         grey = _levelled(grey, levels, spread_px / across, reach / across, sampling.steps)
 
@@ -193,9 +193,11 @@ def _gain(
     """How much of a shift of the grey values the centroid follows, shape (n,).
 
     With the gradient g on -1..1, c = int s g ds / int g ds; shifting g by d changes c by
-    dc/dd = 1 - (g(1) + g(-1) - c (g(1) - g(-1))) / int g ds.
+    dc/dd = 1 - (g(1) + g(-1) - c (g(1) - g(-1))) / int g ds. The gradient at the ends is the mean
+    of those just inside and just outside; the inner alone is so much larger that steps would go
+    too far by a twentieth.
     """
-    first, last = gradient[0], gradient[-1]
+    first, last = (gradient[0] + gradient[1]) / 2, (gradient[-2] + gradient[-1]) / 2
     loss = half_steps * (first + last - centroid * (last - first))
     gain = np.clip(1 - loss / contrast, _LEAST_GAIN, _MOST_GAIN)
     return np.asarray(gain, dtype=np.float64)
@@ -223,10 +225,11 @@ class _Sampling(NamedTuple):
     """Where profiles are sampled, and what is made of their gradients.
 
     Attributes:
-        steps: Along the normal, -1 to 1, shape (s,).
+        steps: Along the normal, -1 to 1 and one more beyond each end, shape (s,).
         places: Shares of (middle, beside, forward) in every sample's place, line by line and step
             by step, shape (lines s, 3).
-        moments: Turn gradients between steps into their sum, first and second moment, (3, s - 1).
+        moments: Turn gradients between steps into their sum, first and second moment on -1 to 1,
+            shape (3, s - 1).
     """
 
     steps: NDArray[np.float32]
@@ -236,11 +239,12 @@ class _Sampling(NamedTuple):
 
 @lru_cache(maxsize=2 * _MOST_HALF_STEPS)
 def _sampling(half_steps: int) -> _Sampling:
-    steps = (np.arange(-half_steps, half_steps + 1) / half_steps).astype(np.float32)
+    steps = (np.arange(-half_steps - 1, half_steps + 2) / half_steps).astype(np.float32)
     lines, along = np.meshgrid(_LINES, steps, indexing="ij")
     places = np.column_stack((np.ones(lines.size), lines.ravel(), along.ravel()))
     middles = (steps[:-1] + steps[1:]) / 2
     moments = np.stack((np.ones_like(middles), middles, middles**2))
+    moments[:, [0, -1]] = 0.0  # beyond the ends
     return _Sampling(steps, places.astype(np.float32), moments.astype(np.float32))
 
 

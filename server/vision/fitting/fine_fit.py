@@ -9,6 +9,7 @@ from drivers.camera import CameraModel
 from server.vision.fitting.bending import significant_bends
 from server.vision.fitting.blurred_code import BlurredCode
 from server.vision.fitting.code_edges import CodeEdges
+from server.vision.fitting.covered_edges import AGREES, covered_edges
 from server.vision.fitting.edge_profiles import EdgeOffsets, edge_offsets
 from server.vision.fitting.edge_spread import spread_basis
 from server.vision.fitting.light_field import LightField, light_field
@@ -73,8 +74,13 @@ class FineFit:
         self._levels = None if self._light is None else self._light.levels(edges)
         self._blurred: BlurredCode | None = None
         self._bend: Array | None = None
+        self._covered: NDArray[np.bool_] | None = None
+        self._agreed_beside_cover = 0
+        self.before_cover: RobustStep | None = None
+        """The last step with the edges beside a cover, if there is one."""
+        self._most_bend_px = 0.0
         self.bend_px = 0.0
-        """Largest shift of an edge because the label is not flat."""
+        """Largest shift of an edge because the label is not flat, with a cover or without."""
         flows = _neighbours_flow_in(measured, few.upright, self._module_px)
         self._looks = BLUR_LOOKS if flows and self._light is not None else 0
 
@@ -82,6 +88,14 @@ class FineFit:
     def spread_px(self) -> float:
         """Edge spread in the code's middle."""
         return float(self._spread[0])
+
+    def inlier_share(self, solved: RobustStep) -> float:
+        """Share of the edges that agree with a step, 0 to 1.
+
+        Edges beside a cover that seemed to agree before they were left out are among them.
+        """
+        agreeing = int(np.count_nonzero(solved.weights > AGREES)) + self._agreed_beside_cover
+        return agreeing / len(self._edges.points_mm)
 
     @property
     def _module_px(self) -> float:
@@ -95,7 +109,7 @@ class FineFit:
     def step(self) -> tuple[RobustStep, float] | None:
         """One step, and how far it moved the farthest edge [px]; None where it leads nowhere."""
         spread_px = self._spread @ self._basis
-        self.measured = edge_offsets(
+        measured = edge_offsets(
             self._picture,
             self._camera,
             self._edges,
@@ -107,6 +121,9 @@ class FineFit:
             row_way=self._row_way if self._moving else None,
             expected=self._blurred,
         )
+        if self._covered is not None:
+            measured = measured._replace(visible=measured.visible & ~self._covered)
+        self.measured = measured
         others = [self._basis]
         if self._moving:
             others.append(self.measured.by_row_way)
@@ -121,7 +138,7 @@ class FineFit:
         if self._moving:
             self._row_way = self._row_way + solved.step[lasting - 2 : lasting]
         bend = solved.design[:, lasting:] @ solved.step[lasting:]
-        self.bend_px = float(np.max(np.abs(bend), initial=0.0))
+        self.bend_px = float(np.max(np.abs(bend), initial=self._most_bend_px))
         return solved, solved.moved_px(lasting)
 
     def learn(self, solved: RobustStep) -> bool:
@@ -135,8 +152,26 @@ class FineFit:
         if self._bend is None:
             bends = significant_bends(solved, self.measured, self._edges, self.pose)
             self._bend = self._best_of(bends) if len(bends) > 1 else next(iter(bends), None)
-            return self._bend is not None
+            if self._bend is not None:
+                return True
+        if self.before_cover is None:
+            covered = covered_edges(self._edges, solved)
+            if covered is not None:
+                self._leave_out(covered, solved)
+                return True
         return False
+
+    def _leave_out(self, covered: NDArray[np.bool_], solved: RobustStep) -> None:
+        """Go on without the edges beside a cover, which may have looked like a bend."""
+        self.before_cover, self._covered, self._bend = solved, covered, None
+        self._most_bend_px = self.bend_px
+        self._agreed_beside_cover = int(
+            np.count_nonzero(covered[solved.used] & (solved.weights > AGREES))
+        )
+        clear = self.measured._replace(visible=self.measured.visible & ~covered)
+        light = light_field(self._edges, clear)
+        if light is not None:
+            self._levels = light.levels(self._edges)
 
     def _best_of(self, bends: list[Array]) -> Array | None:
         """The bend that leaves the smallest residuals, those of the loose part included."""

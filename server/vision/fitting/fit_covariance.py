@@ -8,17 +8,14 @@ from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.robust_step import RobustStep
 from server.vision.projection import Array
 
-DEPTH_FLOOR = 2.5e-5
-"""Relative error of the distance that the residuals do not show: what is left of uneven light and
-of the pixel grid (measured on rendered pictures)."""
-
-TILT_FLOOR_RAD = 5e-5
-"""The same for the tilt about the picture's axes [rad]."""
+COHERENT_PX = 4e-4
+"""What neighbouring edges share and residuals therefore do not show, root mean square [px]: what is
+left of the pixel grid, of its interpolation and of the light (measured on rendered pictures)."""
 
 _MOST_LEVERAGE = 0.8
 
 
-def fit_covariance(solved: RobustStep, edges: CodeEdges, distance_mm: float) -> Array:
+def fit_covariance(solved: RobustStep, edges: CodeEdges) -> Array:
     """Sandwich covariance of an M-estimator (Huber 1981, 7.6), pose part, shape (6, 6).
 
     Pieces of one side of a module share what is wrong with it, so their scores are summed before
@@ -42,8 +39,8 @@ def fit_covariance(solved: RobustStep, edges: CodeEdges, distance_mm: float) -> 
     # A side that draws the fit towards itself shows too little of its error: divide by 1 - h.
     scores /= 1 - np.minimum(leverage, _MOST_LEVERAGE)
     covariance = np.asarray((inverse @ (scores @ scores.T) @ inverse)[:6, :6])
-    covariance[(0, 1), (0, 1)] += TILT_FLOOR_RAD**2
-    covariance[5, 5] += (DEPTH_FLOOR * distance_mm) ** 2
+    normal = solved.design.T @ solved.design / len(solved.design)
+    covariance += COHERENT_PX**2 * np.linalg.inv(normal)[:6, :6]
     return covariance
 
 

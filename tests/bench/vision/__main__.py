@@ -1,9 +1,9 @@
 """Locating the label: the project's locator beside others on the very same frames.
 
-Run as ``python -m tests.bench.vision [--frames N] [--quick] [--out FOLDER]``. It prints a table
-and, with ``--out``, writes it there as vision.md with a plot vision.svg. Times are processor time
-of one thread, so other programs on the machine disturb them little, but they do. The AprilTag
-library takes part if pupil-apriltags is installed.
+Run as ``python -m tests.bench.vision [--frames N] [--first K] [--quick] [--ours] [--out FOLDER]``.
+It prints a table and, with ``--out``, writes it there as vision.md with a plot vision.svg. Times
+are processor time of one thread, so other programs on the machine disturb them little, but they do.
+The AprilTag library takes part if pupil-apriltags is installed.
 """
 
 from __future__ import annotations
@@ -42,20 +42,25 @@ QUICK_FRAMES = 8
 
 
 class Bench:
-    """Runs all methods on a set of pictures after the other."""
+    """Runs all methods on a set of pictures after the other.
 
-    def __init__(self, camera: CameraModel) -> None:
+    Args:
+        camera: Takes the pictures.
+        ours: Leave all other methods and the tags out.
+    """
+
+    def __init__(self, camera: CameraModel, *, ours: bool = False) -> None:
         self._camera = camera
         self._full = FullLocator(camera)
         self._tracked = TrackedLocator(camera)
-        self._tag = FullLocator(camera, tag=True)
-        self._others = compared(camera)
-        self._library = tag_library(camera)
+        self._tag = None if ours else FullLocator(camera, tag=True)
+        self._others = {} if ours else compared(camera)
+        self._library = None if ours else tag_library(camera)
 
-    def run(self, data: DataSet, frames: int) -> dict[str, Scores]:
-        """Scores by method."""
+    def run(self, data: DataSet, frames: int, first: int = 0) -> dict[str, Scores]:
+        """Scores by method, on so many pictures of a set from one number on."""
         scores: dict[str, Scores] = defaultdict(Scores)
-        for scene, seed in data.scenes(self._camera, frames):
+        for scene, seed in data.scenes(self._camera, frames, first):
             image = scene.picture(self._camera, seed)
             size_mm, true = data.size_mm, scene.pose
             predicted = self._tracked.predict(true)
@@ -65,8 +70,10 @@ class Bench:
             _add(scores[TRACKED], found, true, time_s)
             for name, method in self._others.items():
                 self._compare(scores[name], method, image, size_mm, true)
-            tag_image = scene.picture(self._camera, seed, tag=True)
-            found, time_s = _timed(lambda: self._tag(tag_image, size_mm))  # noqa: B023
+            if self._tag is None:
+                continue
+            tag, tag_image = self._tag, scene.picture(self._camera, seed, tag=True)
+            found, time_s = _timed(lambda: tag(tag_image, size_mm))  # noqa: B023
             _add(scores[TAG], found, true, time_s)
             if self._library is not None:
                 self._compare(scores[LIBRARY], self._library, tag_image, size_mm, true)
@@ -129,13 +136,15 @@ def main() -> None:
     """Read the arguments, run, print and write."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--frames", type=int, default=60, help="per set")
+    parser.add_argument("--first", type=int, default=0, help="number of each set's first picture")
+    parser.add_argument("--ours", action="store_true", help="only this project's locator")
     parser.add_argument("--quick", action="store_true", help=f"only {QUICK_FRAMES} per set")
     parser.add_argument("--out", type=Path, help="folder for vision.md and vision.svg")
     arguments = parser.parse_args()
     frames = QUICK_FRAMES if arguments.quick else arguments.frames
     cv2.setNumThreads(1)
     camera = camera_720p()
-    bench = Bench(camera)
+    bench = Bench(camera, ours=arguments.ours)
     rows: list[str] = []
     groups: dict[tuple[str, str], list[Scores]] = defaultdict(list)
     lateral: dict[str, list[tuple[float, float]]] = defaultdict(list)
@@ -147,7 +156,7 @@ def main() -> None:
 
     print(HEAD)
     for data in data_sets.ALL:
-        scores = bench.run(data, frames)
+        scores = bench.run(data, frames, arguments.first)
         nearest, farthest = data.range_mm
         for name, score in scores.items():
             put(row(f"{data.group}: {data.name}", f"{nearest:.0f}-{farthest:.0f}", name, score))

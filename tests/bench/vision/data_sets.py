@@ -35,11 +35,20 @@ class DataSet:
     size_mm: float = 60.0
     spoil: Spoil | None = None
 
-    def scenes(self, camera: CameraModel, count: int) -> Iterator[tuple[Scene, tuple[int, ...]]]:
-        """Scenes with the seeds of their pictures; the same ones every time."""
+    def scenes(
+        self, camera: CameraModel, count: int, first: int = 0
+    ) -> Iterator[tuple[Scene, tuple[int, ...]]]:
+        """Scenes with the seeds of their pictures; the same ones every time.
+
+        Args:
+            camera: Takes the pictures.
+            count: How many.
+            first: Number of the first, so that a set can be run in pieces, or on pictures that
+                nobody has seen yet.
+        """
         base = zlib.crc32(f"{self.name} {self.range_mm} {self.size_mm}".encode())
         nearest = max(self.range_mm[0], 1.95 * self.size_mm)  # nearer it is not wholly in view
-        for number in range(count):
+        for number in range(first, first + count):
             rng = np.random.default_rng((base, number))
             scene = plain_scene(camera, rng, nearest, self.range_mm[1], self.size_mm)
             if self.spoil is not None:

@@ -15,7 +15,7 @@ from drivers.camera.errors import CameraMissingError
 from drivers.camera.settings import StreamSettings
 from drivers.camera.stream import StreamSource
 
-PICTURES = 40
+PICTURES, FRAMES_PER_S = 40, 100.0
 
 
 class MotionJpeg(BaseHTTPRequestHandler):
@@ -26,6 +26,7 @@ class MotionJpeg(BaseHTTPRequestHandler):
         self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=frame")
         self.end_headers()
         for number in range(PICTURES):
+            time.sleep(1 / FRAMES_PER_S)
             _, jpeg = cv2.imencode(".jpg", np.full((48, 64, 3), 4 * number, dtype=np.uint8))
             head = f"--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {jpeg.size}\r\n\r\n"
             self.wfile.write(head.encode() + jpeg.tobytes() + b"\r\n")
@@ -46,7 +47,7 @@ def address() -> Iterator[str]:
 
 
 def test_pictures_come_over_the_network_and_the_end_is_noticed(address: str) -> None:
-    source = StreamSource(StreamSettings(url=address, latency_s=0.25))
+    source = StreamSource(StreamSettings(url=address, latency_s=0.25, frames_per_s=FRAMES_PER_S))
     source.open()
     first = source.read()
     assert first.image.shape == (48, 64)
