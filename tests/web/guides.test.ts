@@ -1,7 +1,8 @@
 import { cleanup, fireEvent, render, screen, waitFor, within } from "@testing-library/preact";
-import { afterEach, beforeEach, describe as suite, expect, test, vi } from "vitest";
+import { afterEach, beforeAll, beforeEach, describe as suite, expect, test, vi } from "vitest";
 import { h } from "preact";
 import { App } from "@/app";
+import { loadGuide } from "@/guides/dialog";
 import { GUIDED, guideOf } from "@/guides/guides";
 import { guides as de } from "@/language/de/guides";
 import { guides as en } from "@/language/en/guides";
@@ -91,6 +92,11 @@ suite("a state", () => {
 
 suite("the dialog", () => {
   let rest: FakeRest;
+
+  // The first time takes a while on a busy machine.
+  beforeAll(async () => {
+    await loadGuide();
+  });
 
   beforeEach(() => {
     vi.stubGlobal("WebSocket", FakeSocket);

@@ -88,6 +88,7 @@ def test_a_watcher_gets_everything_first_and_then_only_changes() -> None:
         assert first["type"] == "snapshot"
         assert first["version"] == PROTOCOL_VERSION
         assert first["live"] == {"a": {"number": 0}, "b": None}
+        assert second.pop("sent_s") - first["sent_s"] == pytest.approx(0.2)
         assert second == {"type": "delta", "sequence": 2, "changes": {"a": {"number": 1}}}
         assert third["sequence"] == 3
         assert third["changes"] == {"a": {"number": 2}, "b": {"number": 5}}
