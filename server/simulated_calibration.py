@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulator.parameters import BuildErrors
-from drivers.simulator.truth import tip_at_rest
+from drivers.simulator.truth import mechanism_from_below, tip_from_below
 from drivers.simulator.world import SimulatedWorld
+from server.calibration.robot.unknowns import MECHANISM, NAMES, mechanism_values
 from server.composition import running
 from server.config.settings import Settings
 from server.control.built_robot import BuiltRobot
 from server.errors import InternalError, PlugPilotError
 from server.jobs.model import JobState, JobType
-from server.schema.calibrations import CalibrationDetail
+from server.schema.calibrations import CalibrationDetail, RobotValues
 from server.schema.jobs import JobRequest
 from server.schema.routines import Routine, RoutineRequest, SocketRoutineRequest
 from server.services import Services
@@ -31,6 +32,8 @@ from twin.kinematics import gamma
 Array = NDArray[np.float64]
 
 TECHNICIAN = "Simulated technician"
+SURELY = 1.96
+"""Standard deviations that hold 95 % of true values."""
 PARKS_WITHIN_MM = 20.0
 """How far beside the taught place the car stands when it comes again."""
 _GRID, _DEPTHS = 7, 3
@@ -47,6 +50,7 @@ class SimulatedCalibration:
         lateral_mm: How far beside its centre the plug of a whole job then meets the socket; None if
             that did not succeed.
         found: The calibration; None if there is none.
+        inside: How many of the seven numbers of the mechanism lie within the stated 95 %.
         poses: From how many the robot looked.
         trouble: What did not succeed; "" if all did.
         wall_s: Computing time.
@@ -57,6 +61,7 @@ class SimulatedCalibration:
     after_mm: Array | None
     lateral_mm: float | None
     found: CalibrationDetail | None
+    inside: int | None
     poses: int
     trouble: str
     wall_s: float
@@ -80,6 +85,7 @@ def before_calibration(build: BuildErrors) -> BuildErrors:
 def tip_errors_mm(world: SimulatedWorld, geometry: RobotGeometry, built: BuiltRobot) -> Array:
     """How far the plug's tip really is from where it is sent, all over the regular box.
 
+    Every place is approached from below, as the routines do, so that play is the same everywhere.
     Places are shifted and turned as suits best (Kabsch 1976): where in the room the base frame
     lies is a choice, and each socket is measured in it.
 
@@ -95,8 +101,22 @@ def tip_errors_mm(world: SimulatedWorld, geometry: RobotGeometry, built: BuiltRo
     joints = gamma.inverse_many(geometry, wanted)
     if built.correction is not None:
         joints = built.correction.to_board_many(joints)
-    there = np.array([tip_at_rest(world.plant, JointPosition(*row)) for row in joints.tolist()])
+    zero, play_mm = world.surroundings.zero, world.parameters.drives.backlash_mm
+    there = np.array(
+        [tip_from_below(world.plant, JointPosition(*row), zero, play_mm) for row in joints.tolist()]
+    )
     return fitted_distance_mm(there, wanted)
+
+
+def numbers_inside(world: SimulatedWorld, geometry: RobotGeometry, found: CalibrationDetail) -> int:
+    """How many true numbers of the mechanism lie within 1.96 stated standard deviations."""
+    if not isinstance(found.values, RobotValues) or found.evidence is None:
+        raise InternalError("This is no calibration of a robot.")
+    play_mm = world.parameters.drives.backlash_mm
+    built = mechanism_from_below(world.plant, world.surroundings.zero, play_mm)
+    off = mechanism_values(found.values.mechanism, geometry) - mechanism_values(built, geometry)
+    sigma = np.array([found.evidence.sigma[name] for name in NAMES[MECHANISM]])
+    return int(np.sum(np.abs(off) < SURELY * sigma))
 
 
 def fitted_distance_mm(there: Array, wanted: Array) -> Array:
@@ -132,6 +152,8 @@ async def _simulate(settings: Settings) -> SimulatedCalibration:
         supervisor = services.supervisor
         await park_first(services)
         before = tip_errors_mm(garage.world, settings.geometry, supervisor.built)
+        camera = technician.camera_calibration(garage.camera.optics, TECHNICIAN)
+        await _put_in_force(services, (await services.calibrations.keep(camera)).id)
         routine = await _carried_out(services, technician.request())
         after, found, lateral_mm, trouble = None, None, None, _trouble(routine)
         if routine.calibration_id is not None:
@@ -147,6 +169,7 @@ async def _simulate(settings: Settings) -> SimulatedCalibration:
         after_mm=after,
         lateral_mm=lateral_mm,
         found=found,
+        inside=numbers_inside(garage.world, settings.geometry, found) if found else None,
         poses=routine.done,
         trouble=trouble,
         wall_s=time.perf_counter() - began,
@@ -160,10 +183,12 @@ async def _carried_out(services: Services, request: RoutineRequest) -> Routine:
     routine = services.routines.shown
     assert routine is not None  # noqa: S101 - it was begun a moment ago
     if routine.calibration_id is not None:
-        await services.calibrations.activate(
-            routine.calibration_id, by=TECHNICIAN, accept_worse=False
-        )
+        await _put_in_force(services, routine.calibration_id)
     return routine
+
+
+async def _put_in_force(services: Services, calibration_id: str) -> None:
+    await services.calibrations.activate(calibration_id, by=TECHNICIAN, accept_worse=False)
 
 
 async def _taught_and_plugged_in(services: Services, technician: SimulatedTechnician) -> float:

@@ -8,23 +8,33 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drivers.camera import CameraModel
 from drivers.simulator import poses
 from drivers.simulator.plant import Plant, PlantState
 from drivers.simulator.view import Pose
 from drivers.simulator.watching import plug_pose
 from drivers.simulator.world import SimulatedWorld
 from server.calibration.axes.estimates import Array
+from server.calibration.camera.board_views import find_board
+from server.calibration.camera.coverage import coverage_map
+from server.calibration.camera.solve import solve_camera
+from server.calibration.camera.verdict import judge
+from server.calibration.versions.service import NewCalibration
+from server.labels.board_sheet import BoardLayout
+from server.schema.calibrations import CameraValues
 from server.schema.routines import BeltReading, RobotRoutineRequest
 from server.services import Services
+from server.simulated_board import board_pictures
 from twin.joints import JointPosition
 from twin.kinematics import alpha
 from twin.motion import plan_joint_move
 
-RULE_MM, RULE_SIGMA_MM = 300.0, 0.1
+RULE_MM, RULE_SIGMA_MM = 400.0, 0.1
 LABEL_SIGMA_MM = 0.1
 GUIDED_TO_MM = 0.03
 """How exactly a hand finds the middle of the socket, by feeling the play on both sides."""
 INSERTION_SPEED = 0.5
+BOARD_PICTURES = 18
 _ROUNDS = 8
 
 
@@ -54,6 +64,29 @@ class SimulatedTechnician:
             for scale in (mechanism.left_scale, mechanism.right_scale)
         )
         return RobotRoutineRequest(left_belt=left, right_belt=right, label_sigma_mm=LABEL_SIGMA_MM)
+
+    def camera_calibration(self, camera: CameraModel, made_by: str) -> NewCalibration:
+        """Photograph the board and solve for the camera, as `plugpilot calibrate camera` does.
+
+        Args:
+            camera: How it really is.
+            made_by: Who does it.
+
+        Raises:
+            CameraCalibrationError: the pictures lead to no camera.
+        """
+        layout, rng = BoardLayout(), self.rng.spawn(1)[0]
+        found = find_board(board_pictures(camera, layout, BOARD_PICTURES, rng), layout)
+        solution = solve_camera(found)
+        verdict = judge(solution, coverage_map(found.views, found.width_px, found.height_px))
+        return NewCalibration(
+            values=CameraValues(camera=solution.camera),
+            made_by=made_by,
+            source=f"{len(found.views)} pictures of the board",
+            grade=verdict.grade,
+            remarks=verdict.remarks,
+            error=solution.check_px,
+        )
 
     async def plug_in_by_hand(self) -> None:
         """Jog the plug all the way into the socket.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,7 @@ from drivers.simulator.plant import Plant, PlantState
 from drivers.simulator.socket_contact import Place
 from drivers.simulator.view import Pose
 from drivers.simulator.watching import plug_pose
+from twin.as_built import PlanarAsBuilt
 from twin.joints import JointPosition, TipPosition
 
 
@@ -86,9 +88,42 @@ def ground_truth(
     )
 
 
-def tip_at_rest(plant: Plant, joints: JointPosition) -> TipPosition:
-    """Where the plug's tip really is with the carriages there by their switches [mm]."""
-    return plant.tip(PlantState(0.0, joints, joints))
+def mechanism_from_below(
+    plant: Plant, zero: JointPosition, play_mm: tuple[float, float, float]
+) -> PlanarAsBuilt:
+    """The mechanism by the board's counting, when both carriages come from below.
+
+    Args:
+        plant: The robot as built.
+        zero: True positions of the motors when the board's coordinates read 0.
+        play_mm: Of each joint: all of it is taken up.
+    """
+    built = plant.mechanism
+    left_mm = built.left_scale * (zero.rho1_mm - 0.5 * play_mm[0])
+    right_mm = built.right_scale * (zero.rho2_mm - 0.5 * play_mm[1])
+    return built.model_copy(
+        update={
+            "left_foot_x_mm": built.left_foot_x_mm + left_mm * math.cos(built.left_rail_rad),
+            "left_foot_y_mm": built.left_foot_y_mm + left_mm * math.sin(built.left_rail_rad),
+            "right_foot_x_mm": built.right_foot_x_mm - right_mm * math.cos(built.right_rail_rad),
+            "right_foot_y_mm": built.right_foot_y_mm - right_mm * math.sin(built.right_rail_rad),
+        }
+    )
+
+
+def tip_from_below(
+    plant: Plant, joints: JointPosition, zero: JointPosition, play_mm: tuple[float, float, float]
+) -> TipPosition:
+    """Where the plug's tip really comes to rest when all joints come from below [mm].
+
+    Args:
+        plant: The robot as built.
+        joints: Where the board sends them.
+        zero: True positions of the motors when the board's coordinates read 0.
+        play_mm: Of each joint.
+    """
+    taken_up = (q + z - 0.5 * p for q, z, p in zip(joints, zero, play_mm, strict=True))
+    return plant.tip(PlantState(0.0, joints, JointPosition(*taken_up)))
 
 
 def lateral_at_face_mm(plug: Pose, socket: Pose) -> float:

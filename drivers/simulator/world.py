@@ -198,7 +198,7 @@ class SimulatedWorld:
             return self._state
         if self.spot.moving is not None:
             self._socket = Socket(self.spot.at(now_s).T_base_socket, self._socket.contact)
-        self._state = self.plant.advance(self._state, self.line, self._surroundings, now_s)
+        self._state = self.plant.advance(self._state, self.line, self.surroundings, now_s)
         self._history.append(self._state)
         while self._history[0].t_s < now_s - HISTORY_S:
             self._history.popleft()
@@ -207,7 +207,8 @@ class SimulatedWorld:
         return self._state
 
     @property
-    def _surroundings(self) -> Surroundings:
+    def surroundings(self) -> Surroundings:
+        """What acts on the plant now."""
         return Surroundings(
             self._socket, self._zero, self._force_limit_n / self._force_scale, self._slide_jammed
         )
@@ -223,7 +224,7 @@ class SimulatedWorld:
         if t_s < start.t_s:
             before = (state for state in reversed(self._history) if state.t_s <= t_s)
             start = next(before, self._history[0])
-        return self.plant.advance(start, self.line, self._surroundings, t_s)
+        return self.plant.advance(start, self.line, self.surroundings, t_s)
 
     # --- the board's side --------------------------------------------------------------------
 
@@ -286,7 +287,7 @@ class SimulatedWorld:
         Args:
             rho3_mm: Positions of that motor in the board's coordinates.
         """
-        around = self._surroundings
+        around = self.surroundings
         return [self.plant.contact_force_n(self._state, around, motor) for motor in rho3_mm]
 
     # --- the station's side ------------------------------------------------------------------
@@ -335,13 +336,9 @@ class SimulatedWorld:
 
     def view_at(self, t_s: float) -> CameraView:
         """The scene in the camera frame at a time of the recent past or the near future [s]."""
-        return camera_view(
-            self.plant,
-            self._state_at(t_s),
-            self._platform_camera,
-            self.spot.at(t_s),
-            self.spot.label_velocity_mm_s(t_s),
-        )
+        state, car = self._state_at(t_s), self.spot.at(t_s)
+        velocity_mm_s = self.spot.label_velocity_mm_s(t_s)
+        return camera_view(self.plant, state, self._platform_camera, car, velocity_mm_s)
 
     def truth(self, at_s: float | None = None) -> GroundTruth:
         """The truth at a time, or when something was last worked out."""

@@ -68,6 +68,8 @@ _EVIDENCE: dict[str, Json] = {
     "sigma": {"left_leg_mm": 0.21},
     "unseen": [],
     "duration_s": 96.4,
+    "tip_likely_mm": 0.07,
+    "tip_at_most_mm": 0.14,
 }
 
 _ROUTINE: dict[str, Json] = {

@@ -12,6 +12,8 @@ import numpy as np
 from server.simulated_calibration import Array, SimulatedCalibration
 
 _SHARES = (50, 95, 100)
+_TIP_MM, _JOB_MM = 0.15, 0.10
+_NUMBERS = 7
 
 
 def as_document(outcome: SimulatedCalibration) -> dict[str, Any]:
@@ -26,6 +28,8 @@ def as_document(outcome: SimulatedCalibration) -> dict[str, Any]:
         "grade": found.grade.value if found else None,
         "held_back_mm": found.error if found else None,
         "in_use_mm": found.error_in_use if found else None,
+        "inside": outcome.inside,
+        "tip_at_most_mm": found.evidence.tip_at_most_mm if found and found.evidence else None,
         "robot_s": found.evidence.duration_s if found and found.evidence else None,
         "trouble": outcome.trouble,
         "wall_s": round(outcome.wall_s, 2),
@@ -95,6 +99,18 @@ def as_summary(documents: Sequence[dict[str, Any]]) -> str:
     ):
         median, p95, worst = np.percentile(values, _SHARES).tolist()
         lines.append(f"{name:<26}{median:>9.3f}{p95:>9.3f}{worst:>9.3f}   {wanted}".rstrip())
+    after, before = (np.array([one[key][1] for one in good]) for key in ("after_mm", "before_mm"))
+    lateral = np.array([one["lateral_mm"] for one in good])
+    at_most = np.array([one["tip_at_most_mm"] for one in good])
+    numbers = sum(one["inside"] for one in good) / (_NUMBERS * len(good))
+    for name, share, wanted in (
+        ("tip within 0.15 mm", float(np.mean(after <= _TIP_MM)), "95 %"),
+        ("job within 0.10 mm", float(np.mean(lateral <= _JOB_MM)), "95 %"),
+        ("better than before", float(np.mean(after < before)), "100 %"),
+        ("true numbers in stated 95 %", numbers, "91 to 99 %"),
+        ("tip no more off than stated", float(np.mean(after <= at_most)), "95 % or more"),
+    ):
+        lines.append(f"{name:<30}{100 * share:>6.1f} %   {wanted}")
     return "\n".join(lines)
 
 

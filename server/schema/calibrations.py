@@ -143,6 +143,15 @@ class RobotEvidence(Wire):
     provenance: Provenance = Field(
         default="routine", description="A routine has looked, or jobs have on their way (drift)"
     )
+    tip_likely_mm: float | None = Field(
+        default=None,
+        ge=0,
+        description="What the plug's tip then misses in 95 % of the regular box, as likely more as "
+        "less; null: made before this was worked out",
+    )
+    tip_at_most_mm: float | None = Field(
+        default=None, ge=0, description="The same, and no more in 95 of 100 such calibrations"
+    )
 
 
 class Calibration(Wire):

@@ -20,11 +20,13 @@ class LabelLook:
         label_mm: Middle of the label in the camera frame, computed with the entered size,
             shape (3,) [mm].
         covariance_mm2: Of ``label_mm``, from the picture alone, shape (3, 3) [mm^2].
+        turned_rad: How the label is turned in the picture.
     """
 
     rho_mm: Array
     label_mm: Array
     covariance_mm2: Array
+    turned_rad: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -166,11 +166,54 @@ class Unknowns:
         found[:, :, _RATIO] = -self.predict(rho_mm) / self.label_ratio
         return np.asarray(found)
 
+    def tip_derivatives(self, platform_mm: Array) -> Array:
+        """How far the platform misses places when a number of the mechanism is wrong by 1.
+
+        Args:
+            platform_mm: Where it is sent, shape (n, 2) [mm].
+
+        Returns:
+            Shape (n, 2, 7).
+        """
+        rho_mm = self.built.inverse_many(platform_mm)
+        return np.asarray(self.built.derivatives_many(rho_mm, platform_mm) @ _OF_BUILT)
+
     def _way(self, rho_mm: Array) -> Array:
         """From the camera to the label in the base frame, shape (n, 3) [mm]."""
         way = np.tile(self.values[_LABEL], (len(rho_mm), 1))
         way[:, :2] -= self.built.forward_many(rho_mm)
         return way
+
+
+def mechanism_values(built: PlanarAsBuilt, drawn: RobotGeometry) -> Array:
+    """A robot's seven numbers in the frame of the unknowns, shape (7,).
+
+    Args:
+        built: In a frame of its own.
+        drawn: Says where the left foot is in that of the unknowns.
+    """
+    origin = PlanarAsBuilt.as_drawn(drawn)
+    mean_rad = 0.5 * (built.left_rail_rad + built.right_rail_rad)
+    to_x = np.array(
+        [[math.cos(mean_rad), math.sin(mean_rad)], [-math.sin(mean_rad), math.cos(mean_rad)]]
+    )
+    between = to_x @ np.array(
+        [
+            built.right_foot_x_mm - built.left_foot_x_mm,
+            built.right_foot_y_mm - built.left_foot_y_mm,
+        ]
+    )
+    return np.array(
+        [
+            built.left_leg_mm,
+            built.right_leg_mm,
+            origin.left_foot_x_mm + between[0],
+            origin.left_foot_y_mm + between[1],
+            0.5 * (built.left_rail_rad - built.right_rail_rad),
+            built.left_scale,
+            built.right_scale,
+        ]
+    )
 
 
 def _small_rotation_vector(rotation: Array) -> Array:

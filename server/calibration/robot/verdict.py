@@ -19,6 +19,7 @@ from server.calibration.robot.errors import RobotFitDivergedError
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
 from server.calibration.robot.solve import RobotSolution, solve_robot
+from server.calibration.robot.tip_doubt import TipDoubt, tip_doubt
 from server.calibration.robot.unknowns import NAMES, WORDS, Unknowns
 from twin.as_built import PlanarAsBuilt
 from twin.geometry import RobotGeometry
@@ -28,6 +29,8 @@ Array = NDArray[np.float64]
 GROUPS = 5
 GOOD_MM, USABLE_MM = 0.06, 0.15
 """Root mean square error across the picture of looks that were held back."""
+GOOD_TIP_MM, USABLE_TIP_MM = 0.2, 1.0
+"""What the tip may miss in 95 % of the box, in 95 of 100 cases."""
 OUTLIER_WEIGHT = 0.5
 MOST_OUTLIERS = 0.2
 LABEL_RATIOS = (0.995, 1.005)
@@ -46,12 +49,14 @@ class RobotVerdict:
         remarks: One sentence for each criterion that is not good, with what to do.
         held_back_mm: Error of held-back looks with the new calibration, root mean square.
         in_use_mm: The same with the one in use now.
+        tip: What the plug's tip may still miss, all over the box.
     """
 
     grade: Grade
     remarks: tuple[str, ...]
     held_back_mm: float
     in_use_mm: float
+    tip: TipDoubt
 
     @property
     def makes_worse(self) -> bool:
@@ -110,9 +115,20 @@ def judge(
                 "during the routine.",
             )
         )
+    tip = tip_doubt(solution)
+    if tip.at_most_mm > GOOD_TIP_MM:
+        marks.append(
+            (
+                Grade.USABLE if tip.at_most_mm <= USABLE_TIP_MM else Grade.BAD,
+                f"At the edges of the workspace the plug may still be {tip.at_most_mm:.2f} mm off: "
+                "measure the belts over 400 mm and the label with a calliper, let the label be "
+                "near the middle of the workspace, and repeat.",
+            )
+        )
     marks += [(Grade.USABLE, text) for text in _far_from_the_drawing(solution, known)]
     grade = worst(grade for grade, _ in marks)
-    return RobotVerdict(grade, tuple(text for _, text in marks), held_back_mm, in_use_mm)
+    remarks = tuple(text for _, text in marks)
+    return RobotVerdict(grade, remarks, held_back_mm, in_use_mm, tip)
 
 
 def _held_back_mm(

@@ -8,6 +8,7 @@ from server.calibration.grade import Grade, worst
 from server.calibration.robot.identifiability import combinations
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
+from server.calibration.robot.moved_switch import moved_switch_mm
 from server.calibration.robot.solve import RobotSolution, solve_robot
 from server.calibration.robot.unknowns import NAMES, WORDS
 from server.calibration.robot.verdict import judge
@@ -18,8 +19,10 @@ from server.calibration.versions.values import rotation_vector
 from server.schema.calibrations import RobotEvidence, RobotValues
 from twin.as_built import PlanarAsBuilt
 
-SWITCH_MOVED_MM = 0.5
-SURELY = 4.0
+LENS_UNKNOWN = (
+    "The camera's own numbers are those of its data sheet. Where its centre is off, a straight "
+    "robot looks skewed: calibrate the camera with the board, then repeat."
+)
 
 
 def result_of(
@@ -44,9 +47,12 @@ def result_of(
     verdict = judge(solution, looks, known, in_force or PlanarAsBuilt.as_drawn(drawn))
     remarks = list(verdict.remarks)
     grade = verdict.grade
-    switch = moved_switch(solution, in_force)
+    switch = _moved_switch(looks, solution, in_force)
     if switch is not None:
         remarks.append(switch)
+        grade = worst([grade, Grade.USABLE])
+    if stand.eye.optics == stand.settings.camera.optics and not stand.settings.camera.calibration:
+        remarks.append(LENS_UNKNOWN)
         grade = worst([grade, Grade.USABLE])
     unknowns = solution.unknowns
     return NewCalibration(
@@ -65,26 +71,20 @@ def result_of(
             sigma={name: solution.sigma_of(name) for name in NAMES},
             unseen=_unseen(solution, known),
             duration_s=duration_s,
+            tip_likely_mm=verdict.tip.likely_mm,
+            tip_at_most_mm=verdict.tip.at_most_mm,
         ),
     )
 
 
-def moved_switch(solution: RobotSolution, in_force: PlanarAsBuilt | None) -> str | None:
-    """Whether only the zero of a carriage differs from the calibration in force, in a sentence.
-
-    Legs and belts do not change by themselves; the distance of the two zeros does when somebody
-    has moved a limit switch. Which of the two it was, the label does not tell.
-    """
+def _moved_switch(
+    looks: Sequence[LabelLook], solution: RobotSolution, in_force: PlanarAsBuilt | None
+) -> str | None:
+    """Whether only a limit switch has moved since the calibration in force, in a sentence."""
     if in_force is None:
         return None
-    built = solution.unknowns.built
-    by_mm = built.right_foot_x_mm - in_force.right_foot_x_mm
-    sure_mm = max(SWITCH_MOVED_MM, SURELY * solution.sigma_of("right_foot_x_mm"))
-    others = max(
-        abs(built.left_leg_mm - in_force.left_leg_mm),
-        abs(built.right_leg_mm - in_force.right_leg_mm),
-    )
-    if abs(by_mm) <= sure_mm or others > 0.5 * abs(by_mm):
+    by_mm = moved_switch_mm(looks, solution.unknowns.R_base_camera, in_force)
+    if by_mm is None:
         return None
     return (
         f"The limit switches of the two carriages are {abs(by_mm):.1f} mm "

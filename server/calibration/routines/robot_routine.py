@@ -1,7 +1,7 @@
 """The robot as it was built, from 25 looks at one label.
 
-The first look has the label in the middle of the picture. Two more, each with one carriage moved
-by itself, show that the motors are connected as they should be. Twenty-one follow from the places
+Two looks, each with one carriage moved by itself, show that the motors are connected as they should
+be. The next has the label in the middle of the picture. Twenty-one follow from the places
 that tell most, and the last is the first one again: the label must be where it was.
 """
 
@@ -43,7 +43,7 @@ MOVED_MM = 0.25
 
 @dataclass(slots=True, eq=False)
 class _First:
-    """The look with the label in the middle of the picture."""
+    """A look with where the robot stood: at last with the label in the middle of the picture."""
 
     joints: JointPosition
     platform_mm: Array
@@ -119,18 +119,25 @@ class RobotRoutine:
 
     async def _begin(self, stand: Stand, progress: Progress) -> list[JointPosition]:
         progress.say("Looking for the label.")
-        seen = await stand.find_label()
-        joints = stand.supervisor.telemetry.require().commanded.position
-        self._first = _First(joints, stand.platform_mm, seen)
         self._looks.clear()
-        self._take(stand, progress, seen)
+        found = self._here(stand, await stand.find_label())
+        # before the way to the middle: with wrong motors the label would be lost on it
         progress.say("Checking that each motor moves its own carriage.")
-        await self._check_wiring(stand, progress, self._first)
+        checked = await self._check_wiring(stand, progress, found)
+        await stand.go_joints(found.joints)
+        centred = await stand.centre_label(found.look)
+        self._first = self._here(stand, centred)
+        self._take(stand, progress, centred)
+        if not checked and not await self._check_wiring(stand, progress, self._first):
+            raise LabelLostError(
+                f"After a step of {WIRING_STEP_MM:g} mm the label was out of the picture."
+            )
         left = await asyncio.to_thread(self._choose, stand, self._first)
         progress.total = progress.done + len(left) + 1
         return left
 
-    async def _check_wiring(self, stand: Stand, progress: Progress, first: _First) -> None:
+    async def _check_wiring(self, stand: Stand, progress: Progress, first: _First) -> bool:
+        """Move each carriage a little; False if the label was lost by that."""
         steps = WIRING_STEP_MM * np.eye(2)
         moved = []
         for step in steps:
@@ -141,13 +148,17 @@ class RobotRoutine:
             )
             look = await stand.look()
             if look is None:
-                raise LabelLostError(
-                    f"After a step of {WIRING_STEP_MM:g} mm the label was out of the picture."
-                )
+                return False
             self._take(stand, progress, look)
             moved.append(stand.R_base_camera @ (first.look.label_mm - look.label_mm))
         drawn = PlanarAsBuilt.as_drawn(stand.supervisor.geometry)
         check_wiring(drawn, first.look.rho_mm, steps, np.stack(moved)[:, :2])
+        return True
+
+    @staticmethod
+    def _here(stand: Stand, look: LabelLook) -> _First:
+        joints = stand.supervisor.telemetry.require().commanded.position
+        return _First(joints, stand.platform_mm, look)
 
     def _choose(self, stand: Stand, first: _First) -> list[JointPosition]:
         geometry = stand.supervisor.geometry

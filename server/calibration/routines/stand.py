@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -90,15 +91,25 @@ class Stand:
         await self.supervisor.move_joints(self.lease, back)
 
     async def find_label(self) -> LabelLook:
-        """The label in the middle of the picture, from a place where it is.
+        """The label from wherever it is in the picture.
 
         Raises:
             LabelLostError: it is in no picture.
             ControlError, CameraDownError: the robot does not get there, or sees nothing at all.
         """
         look = await self.look()
-        if look is None:
-            look = await self._search()
+        return await self._search() if look is None else look
+
+    async def centre_label(self, look: LabelLook) -> LabelLook:
+        """The label in the middle of the picture, from there where it is.
+
+        Args:
+            look: From where the robot stands.
+
+        Raises:
+            LabelLostError: it is not where it should be.
+            ControlError, CameraDownError: as in ``find_label``.
+        """
         sideways = self.R_base_camera @ (look.label_mm * np.array([1.0, 1.0, 0.0]))
         await self.go(self.platform_mm + sideways[:2])
         centred = await self.look()
@@ -145,6 +156,7 @@ class Stand:
             self.board_rho_mm,
             seen.T_camera_label[:3, 3].copy(),
             seen.covariance[3:, 3:].copy(),
+            math.atan2(seen.T_camera_label[1, 0], seen.T_camera_label[0, 0]),
         )
 
     async def sight(self) -> LabelPose | None:

@@ -23,6 +23,7 @@ def figures(seed: int, *, after: bool = True) -> SimulatedCalibration:
         after_mm=np.linspace(0.0, 0.1, 101) if after else None,
         lateral_mm=0.05 if after else None,
         found=None,
+        inside=7 if after else None,
         poses=25,
         trouble="" if after else "The label has moved.",
         wall_s=1.0,
@@ -68,11 +69,16 @@ def test_one_robot_is_shown_before_and_after(computed: list[int]) -> None:
 
 def test_the_summary_counts_what_failed() -> None:
     document = {"before_mm": [1, 2, 3], "after_mm": [0.1, 0.2, 0.3], "lateral_mm": 0.04}
-    document |= {"robot_s": 30.0, "poses": 25}
+    document |= {"robot_s": 30.0, "poses": 25, "inside": 6, "tip_at_most_mm": 0.25}
     text = as_summary([document, {**document, "lateral_mm": None}])
     assert "1 of 2 robots" in text
     assert "0.040" in text
     assert "0.200" in text
+    lines = {line[:30].strip(): line[30:].split("%")[0].strip() for line in text.splitlines()}
+    assert lines["tip within 0.15 mm"] == "0.0"
+    assert lines["job within 0.10 mm"] == "100.0"
+    assert lines["true numbers in stated 95 %"] == "85.7"
+    assert lines["tip no more off than stated"] == "100.0"
 
 
 def test_a_shifted_and_turned_robot_misses_nothing() -> None:

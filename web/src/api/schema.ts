@@ -4954,6 +4954,16 @@ export interface components {
                 readonly [key: string]: number;
             };
             /**
+             * Tip At Most Mm
+             * @description The same, and no more in 95 of 100 such calibrations
+             */
+            readonly tip_at_most_mm?: number | null;
+            /**
+             * Tip Likely Mm
+             * @description What the plug's tip then misses in 95 % of the regular box, as likely more as less; null: made before this was worked out
+             */
+            readonly tip_likely_mm?: number | null;
+            /**
              * Unseen
              * @description What the looks could not tell, in sentences
              */
@@ -7425,6 +7435,8 @@ export interface operations {
                      *         "sigma": {
                      *           "left_leg_mm": 0.21
                      *         },
+                     *         "tip_at_most_mm": 0.14,
+                     *         "tip_likely_mm": 0.07,
                      *         "unseen": []
                      *       },
                      *       "grade": "good",

@@ -17,6 +17,7 @@ from server.calibration.camera.solve import CameraSolution, solve_camera
 from server.calibration.camera.verdict import judge
 from server.calibration.grade import Grade
 from server.labels.board_sheet import BoardLayout
+from server.simulated_board import board_pictures
 from tests.server.calibration.camera.conftest import LAYOUT, TRUTH, Picture
 
 
@@ -96,3 +97,10 @@ def test_pictures_of_different_sizes(pictures: list[Picture]) -> None:
 def test_another_board(pictures: list[Picture]) -> None:
     with pytest.raises(WrongBoardError, match="no board of 4 x 5"):
         find_board(pictures, BoardLayout(columns=4, rows=5))
+
+
+@pytest.mark.parametrize("other", [BoardLayout(columns=5, rows=7), BoardLayout(columns=9, rows=7)])
+def test_another_board_is_named_and_never_makes_a_camera(other: BoardLayout) -> None:
+    pictures = board_pictures(TRUTH, other, 9, np.random.default_rng(2))
+    with pytest.raises(WrongBoardError, match="no board of 7 x 9 squares"):
+        find_board(pictures, LAYOUT)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
-from server.calibration.robot.unknowns import MECHANISM, NAMES
+from server.calibration.robot.unknowns import MECHANISM, NAMES, mechanism_values
 from twin.as_built import PlanarAsBuilt
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
@@ -90,24 +90,7 @@ class Workshop:
 
 
 def truth_of(robot: Workshop) -> Array:
-    """The unknowns of a robot in the frame of the solution: mean rail along x, left foot fixed."""
-    built, drawn = robot.built, PlanarAsBuilt.as_drawn(DRAWN)
-    mean = 0.5 * (built.left_rail_rad + built.right_rail_rad)
-    turn = np.array([[np.cos(mean), np.sin(mean)], [-np.sin(mean), np.cos(mean)]])
-    way = turn @ np.array(
-        [
-            built.right_foot_x_mm - built.left_foot_x_mm,
-            built.right_foot_y_mm - built.left_foot_y_mm,
-        ]
-    )
+    """The unknowns of a robot in the frame of the solution; NaN where they are not asked for."""
     values = np.full(len(NAMES), np.nan)
-    values[MECHANISM] = [
-        built.left_leg_mm,
-        built.right_leg_mm,
-        drawn.left_foot_x_mm + way[0],
-        drawn.left_foot_y_mm + way[1],
-        0.5 * (built.left_rail_rad - built.right_rail_rad),
-        built.left_scale,
-        built.right_scale,
-    ]
+    values[MECHANISM] = mechanism_values(robot.built, DRAWN)
     return values
