@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
@@ -61,8 +62,10 @@ def check_answer(case: Case[Any], server: ServerProcess) -> None:
     )
     if headers and OPERATIONS[name] is not Need.ANYONE:
         assert response.status_code != 401, "the owner was not let in: nothing is tested"
-    if response.headers.get("content-type", [""])[0] in JSON:
-        answer = case.operation.definition.raw["responses"].get(str(response.status_code), PROBLEM)
+    answer = case.operation.definition.raw["responses"].get(str(response.status_code), PROBLEM)
+    if response.status_code == HTTPStatus.NO_CONTENT:
+        assert not response.content, "an answer without content has some"
+    elif response.headers.get("content-type", [""])[0] in JSON:
         fitting = _validator(json.dumps(answer))
         errors = [f"{e.message} at {e.instance_path}" for e in fitting.iter_errors(response.json())]
         assert not errors, errors
