@@ -1,5 +1,5 @@
 import { formatNumber } from "@/format";
-import { drift, hints, open } from "./desk";
+import { drift, hints, open, vehicles } from "./desk";
 import { hintOf } from "./hinted";
 import type { Drift, Hint, RoutineKind } from "./types";
 import { say } from "./words";
@@ -30,11 +30,14 @@ function Belts({ belts }: { belts: Drift }) {
   const { moved_mm, proven_mm, exceeds, at_bound, jobs, left_percent, right_percent } = belts;
   const [moved, proven] = [moved_mm, proven_mm].map((each) => formatNumber(each, 2));
   const looser = Math.abs(left_percent) >= Math.abs(right_percent) ? "left" : "right";
+  const most_mm = Math.max(2 * proven_mm, moved_mm);
   const anew = exceeds || at_bound;
   return (
     <div class="calibration-belts" data-tone={anew ? "ask" : "good"}>
       <p>{say.drift.moved(moved!, proven!)}</p>
-      <meter min={0} max={Math.max(2 * proven_mm, moved_mm)} high={proven_mm} value={moved_mm} aria-label={say.drift.title} />
+      <div class="calibration-proven" style={{ "--proven": `${String((100 * proven_mm) / most_mm)}%` }}>
+        <meter min={0} max={most_mm} value={moved_mm} aria-label={say.drift.title} />
+      </div>
       <p class="soft small">
         {[
           `${say.drift.left} ${percent(left_percent, belts.left_sigma_percent)}`,
@@ -56,10 +59,11 @@ function Belts({ belts }: { belts: Drift }) {
 
 function HintLine({ hint }: { hint: Hint }) {
   const { title, text, mendedBy } = hintOf(hint);
+  const car = vehicles.value.find(({ id }) => id === hint.vehicle_id)?.name;
   return (
     <li>
       <p>
-        <strong>{title}.</strong> {text}
+        <strong>{car === undefined || text.includes(car) ? title : `${title} (${car})`}.</strong> {text}
       </p>
       {mendedBy !== null && <Mend kind={mendedBy} />}
     </li>

@@ -63,11 +63,11 @@ export function Figures({ figures }: { figures: readonly Figure[] }) {
 }
 
 /** Every number of a version, with its standard deviation where that is known. */
-export function Numbers({ version }: { version: CalibrationDetail }) {
+export function Numbers({ version, folded }: { version: CalibrationDetail; folded: boolean }) {
   const beside = Object.entries(version.values).filter(([name]) => name.includes("sigma"));
   const sigma: Record<string, unknown> = { ...version.evidence?.sigma, ...Object.fromEntries(beside) };
   return (
-    <details class="calibration-numbers" open={MEASURED.includes(version.kind)}>
+    <details class="calibration-numbers" open={!folded && MEASURED.includes(version.kind)}>
       <summary>{say.numbers.title}</summary>
       <dl class="list">
         {numbersOf(version).map(([name, value]) => (

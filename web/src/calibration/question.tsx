@@ -40,7 +40,7 @@ export function QuestionForm({ asks }: { asks: Question }) {
             }}
           />
           <small id="calibration-limits" class={wrong && text.value !== "" ? "calibration-wrong" : "soft"}>
-            {say.asking.limits(formatNumber(input.least, 1), formatNumber(input.most, 1), input.unit)}
+            {say.asking.limits(short(input.least), short(input.most), input.unit)}
           </small>
         </label>
       )}
@@ -51,3 +51,5 @@ export function QuestionForm({ asks }: { asks: Question }) {
     </form>
   );
 }
+
+const short = (value: number): string => formatNumber(value, Number.isInteger(value) ? 0 : 1);

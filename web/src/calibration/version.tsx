@@ -77,7 +77,7 @@ function Version({ version, title, figures }: VersionProps) {
       <Sentences title={say.result.remarks} sentences={remarks.map(remarkOf)} />
       {evidence !== null && values.kind === "robot" && <Residuals evidence={evidence} values={values} />}
       {evidence !== null && <Sentences title={say.result.unseen} sentences={evidence.unseen.map(unseenOf)} />}
-      <Numbers version={version} />
+      <Numbers version={version} folded={figures.length > 0} />
       <p class="soft small">
         {say.result.madeBy(made_by, formatDate(made_at))}
         {evidence !== null && ` · ${say.result.looks(evidence.looks.length, formatDuration(evidence.duration_s))}`}
