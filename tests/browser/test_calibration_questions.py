@@ -14,7 +14,11 @@ BEGIN, CONFIRM = "/api/v1/calibrations/routine", "/api/v1/calibrations/routine/c
 
 def test_belts_are_measured_by_answering(browser: Browser, address: str, stage: Stage) -> None:
     stage.live = SCENES["ready"]
-    context = browser.new_context(viewport=PHONE, locale="de-CH", reduced_motion="reduce")
+    context = browser.new_context(
+        viewport={"width": PHONE["width"], "height": PHONE["height"]},
+        locale="de-CH",
+        reduced_motion="reduce",
+    )
     page = context.new_page()
     page.goto(f"{address}/technician")
     page.locator(".link[data-link=live]").wait_for()
