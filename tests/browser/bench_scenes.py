@@ -14,10 +14,24 @@ from playwright.sync_api import Page
 
 from server.calibration.grade import Grade
 from server.schema.accuracy import AccuracyCheck, AccuracyCheckPage, CheckedPlace
-from server.schema.calibrations import Calibration, CalibrationDetail, LookRecord
+from server.schema.calibrations import (
+    Calibration,
+    CalibrationDetail,
+    CalibrationKind,
+    ForceValues,
+    LookRecord,
+)
+from server.schema.drift import MaintenanceHint
 from server.schema.live import Live
 from server.schema.problem import Problem
-from server.schema.routines import CalibrationNow, Routine, RoutineLook
+from server.schema.routines import (
+    CalibrationNow,
+    Routine,
+    RoutineFigure,
+    RoutineInput,
+    RoutineLook,
+    RoutineQuestion,
+)
 from tests.browser.scenes import SCENES
 
 Json = Any
@@ -71,6 +85,24 @@ def _detail() -> CalibrationDetail:
     return example.model_copy(update=changes)
 
 
+SLIDE = "slide"
+"""Id of the version that has measured the slide."""
+
+
+def _slide() -> CalibrationDetail:
+    """A slide that wants grease; the scale was measured against a spring."""
+    values = ForceValues(
+        friction_n=6.3, friction_sigma_n=0.12, offset_n=-0.4, offset_sigma_n=0.1, scale=1.03,
+        scale_sigma=0.02, following_mm=0.21,
+    )  # fmt: skip
+    changes = {
+        "id": SLIDE, "kind": CalibrationKind.FORCE, "values": values, "evidence": None,
+        "grade": Grade.USABLE, "error": 0.31, "error_in_use": 6.5, "in_force": False,
+        "remarks": ["The slide takes 6.3 N to move freely: clean and grease its screw."],
+    }  # fmt: skip
+    return _detail().model_copy(update=changes)
+
+
 def _checks() -> AccuracyCheckPage:
     """Two checks at nine places, the newer one better."""
     (example,) = AccuracyCheckPage.model_validate(_example("calibrations/checks")).items
@@ -103,6 +135,8 @@ def answer(path: str) -> Json:
         newest = newest.model_copy(update={"version": 4})
         page = [one.model_dump(mode="json") for one in (newest, older)]
         return {"items": page, "next_cursor": None}
+    if path == f"calibrations/{SLIDE}":
+        return _slide().model_dump(mode="json")
     if path.startswith("calibrations/"):
         return _detail().model_dump(mode="json")
     return _examples().get(f"/api/v1/{path}")
@@ -141,7 +175,52 @@ _LOST = Problem(
 )
 _MOVED = _LOST.model_copy(update={"code": "calibration_label_moved", "context": {"moved_mm": 1.24}})
 
+MARKED = RoutineQuestion(
+    code="belts_marked",
+    text="Mark on the rail where both carriages stand, then confirm.",
+    input=None,
+)
+LEFT = RoutineQuestion(
+    code="belts_left",
+    text="How far has the left carriage gone from its mark?",
+    input=RoutineInput(unit="mm", least=285.0, most=315.0),
+)
+
+
+def belts(asks: RoutineQuestion, done: int) -> Live:
+    """The belts are being measured, and the robot waits for an answer."""
+    return _calibrating(kind="belts", asks=asks, done=done, total=2, looks=[])
+
+
+def _force_found() -> Live:
+    figures = [
+        RoutineFigure(code="friction_n", label="Friction", value=6.3, sigma=0.12, unit="N"),
+        RoutineFigure(code="force_scale", label="Force scale", value=1.03, sigma=0.02, unit=""),
+    ]
+    return _calibrating(
+        kind="force", state="finished", calibration_id=SLIDE, looks=[], figures=figures
+    )
+
+
+def _worn() -> Live:
+    """The belts have moved further than was proven, and a socket's label has come loose."""
+    now = CalibrationNow.model_validate(_example("calibrations/now"))
+    off = MaintenanceHint(
+        code="socket_off",
+        title="The socket is not where its label says",
+        text="The last plugs went in +1.2 mm to the right and -0.4 mm up from there. Look whether "
+        "the label of Renault Zoe has come loose, then teach the socket again.",
+        vehicle_id="zoe",
+    )
+    worn = now.model_copy(update={"routine": None, "hints": [*now.hints, off]})
+    return SCENES["ready"].model_copy(update={"calibration": worn})
+
+
 CALIBRATIONS: Mapping[str, Live] = {
+    "calibration-marking": belts(MARKED, 1),
+    "calibration-reading": belts(LEFT, 2),
+    "calibration-slide": _force_found(),
+    "calibration-worn": _worn(),
     "calibration-running": _calibrating(),
     "calibration-interrupted": _calibrating(state="interrupted", problem=_LOST),
     "calibration-failed": _calibrating(state="failed", problem=_MOVED),
@@ -164,13 +243,32 @@ PANELS = ("calibration", "target", "console", "camera", "configuration", "diagno
 
 def _calibration(page: Page) -> None:
     open_panel(page, "calibration")
-    page.locator(".calibration :is(.calibration-starts, .calibration-actions)").wait_for()
+    page.locator(".calibration :is(.calibration-starts, .calibration-actions)").first.wait_for()
 
 
 def _guide(page: Page) -> None:
     _calibration(page)
     page.locator(".calibration-start").first.click()
     page.locator(".calibration-guide").wait_for()
+
+
+def _force_guide(page: Page) -> None:
+    _calibration(page)
+    page.locator(".calibration-start").nth(4).click()
+    page.locator(".calibration-guide").wait_for()
+
+
+def _news(page: Page) -> None:
+    open_panel(page, "diagnostics")
+    page.locator(".diagnostics-news summary").click()
+    page.locator(".diagnostics-news li").first.wait_for()
+
+
+def updated(page: Page) -> None:
+    """The page is loaded anew in a browser that was here before an update."""
+    page.evaluate("localStorage.setItem('plugpilot.version.seen', '0.0.9')")
+    page.reload()
+    page.locator(".updated").wait_for()
 
 
 def _to_panel(title: str) -> Callable[[Page], None]:
@@ -180,6 +278,8 @@ def _to_panel(title: str) -> Callable[[Page], None]:
 OPENED: Mapping[str, tuple[Live, Callable[[Page], None]]] = {
     "calibration": (SCENES["ready"], _calibration),
     "calibration-guide": (SCENES["ready"], _guide),
+    "calibration-guide-force": (SCENES["ready"], _force_guide),
+    "news": (SCENES["ready"], _news),
     **{name: (live, _calibration) for name, live in CALIBRATIONS.items()},
     **{title: (SCENES["ready"], _to_panel(title)) for title in PANELS[1:]},
 }

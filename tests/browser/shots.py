@@ -115,7 +115,7 @@ def _shoot_bench(
     page.reload()
     page.locator(".link[data-link=live]").wait_for()
     opened(page)
-    page.locator("details[open]").evaluate("panel => panel.scrollIntoView()")
+    page.locator("details.panel[open]").evaluate("panel => panel.scrollIntoView()")
     page.wait_for_timeout(SETTLES_MS)
     shoot(f"technician-{name}")
 

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.axe import violations
-from tests.browser.bench_scenes import CALIBRATIONS, OPENED, PANELS, open_panel
+from tests.browser.bench_scenes import CALIBRATIONS, OPENED, PANELS, open_panel, updated
 from tests.browser.chromium import PHONE
 from tests.browser.languages import LOCALES, overflows
 from tests.browser.scenes import SCENES
@@ -48,7 +48,7 @@ def _bench(
 def _open_all(page: Page) -> None:
     for title in PANELS:
         open_panel(page, title)
-    page.locator(".calibration :is(.calibration-starts, .calibration-actions)").wait_for()
+    page.locator(".calibration :is(.calibration-starts, .calibration-actions)").first.wait_for()
     page.locator(".config-form").wait_for()
     page.locator(".console-frames strong").first.wait_for()
     page.locator(".camera-overlay").wait_for()
@@ -65,6 +65,10 @@ def test_every_panel_is_accessible(
         assert violations(page) == []
         page.locator(".calibration-start").first.click()
         page.locator(".calibration-guide").wait_for()
+        page.locator(".diagnostics-news summary").click()
+        page.locator(".diagnostics-news li").first.wait_for()
+        assert violations(page) == []
+        updated(page)
         assert violations(page) == []
 
 
@@ -93,6 +97,15 @@ def test_nothing_runs_over_in_any_language(
         assert page.evaluate("document.documentElement.lang") == language
         _open_all(page)
         troubles["all panels"] = overflows(page)
+        for number in range(page.locator(".calibration-start").count()):
+            page.locator(".calibration-start").nth(number).click()
+            page.locator(".calibration-guide").wait_for()
+            troubles[f"guide {number}"] = overflows(page)
+            page.locator(".calibration-actions .button").last.click()
+            page.locator(".calibration-starts").first.wait_for()
+        page.locator(".diagnostics-news summary").click()
+        updated(page)
+        troubles["updated"] = overflows(page)
         for name, live in CALIBRATIONS.items():
             stage.live = live
             expect(page.locator(".calibration")).to_have_count(1)

@@ -4,13 +4,8 @@ import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
 import openapi from "../../web/openapi.json";
 import { session } from "@/access/session";
 import { close, putAway, routine, versions } from "@/calibration/desk";
-import { leftOver, platformAt } from "@/calibration/mechanism";
 import { CalibrationPanel } from "@/calibration/opening";
-import { secondsLeft } from "@/calibration/pace";
 import { CalibrationBody } from "@/calibration/panel";
-import { enlargement, planeAround } from "@/calibration/plots/plane";
-import { numberIn, requestOf } from "@/calibration/request";
-import { ROUTINES } from "@/calibration/routines";
 import type { CalibrationDetail, Routine } from "@/calibration/types";
 import { channel } from "@/live/page";
 import { FakeRest } from "./rest";
@@ -23,6 +18,7 @@ const CHECKS = openapi.paths["/api/v1/calibrations/checks"].get.responses["200"]
 const { evidence: _, ...VERSION } = DETAIL;
 const FRESH = { ...DETAIL, in_force: false };
 const BEGIN = "POST /calibrations/routine";
+const CONFIRM = "POST /calibrations/routine/confirm";
 
 let rest: FakeRest;
 /** Each test has a routine of its own: one that was read is not shown again. */
@@ -45,6 +41,7 @@ beforeEach(() => {
     .answer(`POST /calibrations/${DETAIL.id}/activation`, [200, {}])
     .answer("POST /calibrations/roll-back", [200, {}])
     .answer("POST /calibrations/routine/cancel", [200, {}])
+    .answer(CONFIRM, [200, {}])
     .answer("POST /calibrations/routine/resume", [200, {}]);
   channel.start();
 });
@@ -127,6 +124,57 @@ describe("a routine", () => {
     await waitFor(() => expect(rest.commands).toEqual(["POST /calibrations/routine/cancel"]));
   });
 
+  test("that needs no car begins without one, and its share is typed in per cent", async () => {
+    rest.answer("GET /vehicles", [200, { items: [] }]);
+    render(h(CalibrationBody, null));
+    show(null);
+    fireEvent.click(await screen.findByRole("button", { name: /Force of the slide/ }));
+    fireEvent.input(screen.getByLabelText(/Rate of the spring/), { target: { value: "2,5" } });
+    fireEvent.input(screen.getByLabelText(/rate is known to/), { target: { value: "5" } });
+    await press("Begin the strokes");
+    await waitFor(() => expect(rest.commands).toEqual([BEGIN]));
+    expect(sent(BEGIN)).toEqual({ kind: "force", strokes: 3, stroke_mm: 12, spring_n_mm: 2.5, spring_sigma: 0.05 });
+  });
+
+  test("that needs a car says that there is none", async () => {
+    rest.answer("GET /vehicles", [200, { items: [] }]);
+    render(h(CalibrationBody, null));
+    show(null);
+    fireEvent.click(await screen.findByRole("button", { name: /Play of the carriages/ }));
+    await screen.findByText(/No car is known yet/);
+    expect(button("Begin to measure").disabled).toBe(true);
+  });
+
+  test("that waits for something to be done goes on when that is confirmed", async () => {
+    render(h(CalibrationBody, null));
+    const asks = { code: "belts_marked", text: "Mark on the rail, then confirm.", input: null };
+    show(running({ kind: "belts", done: 1, total: 2, looks: [], asks }));
+    await screen.findByText(asks.text);
+    await screen.findByText("Step 1 of 2");
+    expect(screen.queryByText(/left$/)).toBeNull();
+    expect(button("End it").disabled).toBe(false);
+    await press("Done, go on");
+    await waitFor(() => expect(sent(CONFIRM)).toEqual({ code: "belts_marked", value: null }));
+  });
+
+  test("that asks for a number takes none that cannot be right", async () => {
+    render(h(CalibrationBody, null));
+    const input = { unit: "mm" as const, least: 285, most: 315 };
+    const left = { code: "belts_left", text: "How far has the left carriage gone?", input };
+    show(running({ kind: "belts", done: 2, total: 2, looks: [], asks: left }));
+    const field = await screen.findByLabelText(/Reading, mm/);
+    expect(button("Enter it").disabled).toBe(true);
+    fireEvent.input(field, { target: { value: "30" } });
+    await screen.findByText("285 to 315 mm");
+    expect(button("Enter it").disabled).toBe(true);
+    fireEvent.input(field, { target: { value: "300,7" } });
+    await press("Enter it");
+    await waitFor(() => expect(sent(CONFIRM)).toEqual({ code: "belts_left", value: 300.7 }));
+    show(running({ kind: "belts", done: 2, total: 2, looks: [], asks: { ...left, code: "belts_right", text: "And the right one?" } }));
+    await screen.findByText("And the right one?");
+    expect((screen.getByLabelText(/Reading, mm/) as HTMLInputElement).value).toBe("");
+  });
+
   test("opens the panel by itself after a reload", async () => {
     render(h(CalibrationPanel, null));
     show(running());
@@ -161,6 +209,40 @@ describe("a routine", () => {
 
 describe("what came of it", () => {
   const finished = (): Routine => running({ state: "finished", calibration_id: DETAIL.id, done: 25 });
+
+  test("shows the figures of the routine at one glance", async () => {
+    render(h(CalibrationBody, null));
+    const figures = [
+      { code: "left_scale", label: "Left belt", value: 1.0024, sigma: 0.0003, unit: "" },
+      { code: "error", label: "Misses", value: 0.034, sigma: null, unit: "mm" },
+      { code: "made_tomorrow", label: "Something new", value: 2, sigma: 0.5, unit: "N" },
+    ];
+    show({ ...finished(), figures });
+    await screen.findByText("Something new");
+    const found = document.querySelector(".calibration-figures")!;
+    expect([...found.querySelectorAll("dd")].map(({ textContent }) => textContent)).toEqual([
+      "100.240 ± 0.030 %",
+      "2.00 ± 0.50 N",
+    ]);
+  });
+
+  test("of the slide shows every number with how sure it is, and in newtons", async () => {
+    const values = {
+      kind: "force", friction_n: 6.31, friction_sigma_n: 0.12, offset_n: -0.4, offset_sigma_n: 0.1,
+      scale: 1, scale_sigma: null, following_mm: 0.21,
+    };
+    const force = { ...FRESH, kind: "force", grade: "usable", values, evidence: null, error: 0.31, error_in_use: 6.5 };
+    rest.answer(`GET /calibrations/${DETAIL.id}`, [200, force]);
+    render(h(CalibrationBody, null));
+    show({ ...finished(), kind: "force" });
+    await screen.findByText("The slide has been measured");
+    const numbers = document.querySelector<HTMLDetailsElement>(".calibration-numbers")!;
+    expect(numbers.open).toBe(true);
+    expect([...numbers.querySelectorAll("dd")].map(({ textContent }) => textContent)).toEqual([
+      "6.3 ± 0.1 N", "-0.4 ± 0.1 N", "0.21 mm",
+    ]);
+    expect(screen.getByText("6.50 N")).toBeTruthy();
+  });
 
   test("is used with one press when it is better", async () => {
     render(h(CalibrationBody, null));
@@ -259,73 +341,6 @@ test("a check shows its figures and where the robot came to", async () => {
   await screen.findByText("0.094 mm");
   expect(document.querySelectorAll(".plot circle.below").length).toBe(1);
   expect(document.querySelectorAll(".plot circle.above").length).toBe(1);
-});
-
-describe("the mechanism", () => {
-  const { values } = VERSION;
-  if (values.kind !== "robot") throw new Error("the example is no robot");
-
-  test("stands where the server has it", () => {
-    // Both from twin.as_built.PlanarAsBuilt.forward and cv2.Rodrigues with the same numbers.
-    const place = platformAt(
-      {
-        left_leg_mm: 533.21, right_leg_mm: 530.87, left_foot_x_mm: 55, left_foot_y_mm: 0,
-        right_foot_x_mm: 1246.42, right_foot_y_mm: -1.13, left_rail_rad: 0.0021, right_rail_rad: -0.0021,
-        left_scale: 1.0024, right_scale: 0.9981,
-      },
-      { rho1_mm: 212.4, rho2_mm: 180.9 },
-    );
-    expect(place?.x_mm).toBeCloseTo(668.9753, 3);
-    expect(place?.y_mm).toBeCloseTo(351.8144, 3);
-    const left = leftOver({ residual_mm: [0.011, -0.004, 0.052] }, [0.013, -0.021, 3.127]);
-    expect(left.x_mm).toBeCloseTo(-0.010513, 6);
-    expect(left.y_mm).toBeCloseTo(0.003457, 6);
-  });
-
-  test("whose legs do not reach each other stands nowhere", () => {
-    expect(platformAt({ ...values.mechanism, left_leg_mm: 10 }, { rho1_mm: 0, rho2_mm: 0 })).toBeNull();
-  });
-});
-
-describe("drawings", () => {
-  test("keep all places inside, up above down", () => {
-    const places = [{ x_mm: 500, y_mm: 100 }, { x_mm: 900, y_mm: 100 }, { x_mm: 700, y_mm: 400 }];
-    const plane = planeAround(places);
-    for (const place of places) {
-      const [x, y] = plane.at(place);
-      expect(x).toBeGreaterThan(0);
-      expect(x).toBeLessThan(plane.width);
-      expect(y).toBeGreaterThan(0);
-      expect(y).toBeLessThan(plane.height);
-    }
-    expect(plane.at(places[2]!)[1]).toBeLessThan(plane.at(places[0]!)[1]);
-  });
-
-  test("enlarge by 1, 2 or 5 and never beyond their room", () => {
-    for (const longest of [0.0007, 0.013, 0.4, 3]) {
-      const times = enlargement(longest, 20);
-      expect(longest * times).toBeLessThanOrEqual(20);
-      expect(longest * times).toBeGreaterThan(7.9);
-      expect([1, 2, 5]).toContain(Number(times.toExponential()[0]));
-    }
-    expect(enlargement(0, 20)).toBe(1);
-    expect(enlargement(50, 20)).toBe(1);
-  });
-});
-
-test("the time left follows the pace that was seen", () => {
-  const first = { done: 3, at_ms: 1000 };
-  expect(secondsLeft(10, first, first, 6)).toBe(60);
-  expect(secondsLeft(10, first, { done: 7, at_ms: 9000 }, 6)).toBe(20);
-});
-
-test("numbers are read with the comma of the reader's country", () => {
-  expect(numberIn(" 300,7 ")).toBe(300.7);
-  expect(numberIn("300.7")).toBe(300.7);
-  for (const text of ["", " ", "1,2,3", "abc"]) expect(numberIn(text)).toBeNull();
-});
-
-test("a whole number has no fraction, and an empty optional one is left out", () => {
-  expect(requestOf("check", ROUTINES.check, { approaches: "3.5" }, null).wrong).toEqual({ approaches: "noNumber" });
-  expect(requestOf("check", ROUTINES.check, { approaches: "" }, null)).toEqual({ body: { kind: "check" }, wrong: {} });
+  const report = screen.getByRole("link", { name: "Download the report (PDF)" });
+  expect(report.getAttribute("href")).toBe(`/api/v1/calibrations/checks/${CHECKS.items[0]!.id}/report.pdf`);
 });

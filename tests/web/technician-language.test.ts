@@ -1,6 +1,8 @@
 import { cleanup, fireEvent, render, screen } from "@testing-library/preact";
 import { h } from "preact";
 import { afterEach, describe, expect, test, vi } from "vitest";
+import { questionOf } from "@/calibration/asked";
+import { hintOf } from "@/calibration/hinted";
 import { DOINGS, doingOf, remarkOf, unseenOf } from "@/calibration/translated";
 import { speak } from "@/language/catalogue";
 import { channel } from "@/live/page";
@@ -37,7 +39,7 @@ function sentences(words: unknown, path = ""): [string, string][] {
 }
 
 /** What English leaves to the server. */
-const SERVERS = /^\.(bench\.problems|calibration\.(doing|remarks))\./;
+const SERVERS = /^\.(bench\.problems|calibration\.(doing|remarks|questions|hints))\./;
 
 afterEach(async () => {
   cleanup();
@@ -94,6 +96,49 @@ describe("what the server says of calibration", () => {
     );
     await speak("fr");
     expect(unseenOf(UNSEEN)).toMatch(/^Longueur de la jambe gauche et course de la courroie droite\u00a0: /);
+  });
+
+  test("of one carriage names it, and counts", async () => {
+    const PLAY = "The left carriage has 0.32 mm of play: tighten its belt, and look at pulley and gear.";
+    expect(doingOf("Homing, 2 of 5.")).toBe("Homing, 2 of 5.");
+    await speak("de");
+    expect(doingOf("Homing, 2 of 5.")).toBe("Die Position wird gesucht, 2 von 5.");
+    expect(doingOf("Bringing the right carriage to the same place from below.")).toMatch(/rechte .* von unten/);
+    expect(remarkOf(PLAY)).toMatch(/^Der linke Schlitten hat 0,32 mm Spiel/);
+    await speak("fr");
+    expect(remarkOf("The right switch closes within 0.12 mm only: fasten it, and look for play of its lever.")).toMatch(
+      /^La fin de course droite ne se ferme qu’à 0,12 mm/,
+    );
+    await speak("it");
+    expect(remarkOf("Without any force the motor current shows -2.4 N: something pulls at the slide, such as the cable.")).toMatch(
+      /mostra -2,4 N/,
+    );
+  });
+
+  test("in a question keeps its numbers, and an unknown one stays", async () => {
+    const spring = {
+      code: "force_spring",
+      text: "Put the spring of 2.5 N/mm straight before the plug, against something firm, then confirm. The plug will push it together.",
+      input: null,
+    };
+    expect(questionOf(spring)).toBe(spring.text);
+    await speak("de");
+    expect(questionOf(spring)).toMatch(/Feder mit 2,5 N\/mm/);
+    expect(questionOf({ ...spring, text: "Something else." })).toBe("Something else.");
+    expect(questionOf({ ...spring, code: "made_tomorrow" })).toBe(spring.text);
+  });
+
+  test("in a hint keeps its numbers and the name of the car", async () => {
+    const off = {
+      code: "socket_off",
+      title: "The socket is not where its label says",
+      text: "The last plugs went in +1.2 mm to the right and -0.4 mm up from there. Look whether the label of Renault Zoe has come loose, then teach the socket again.",
+      vehicle_id: "zoe",
+    };
+    expect(hintOf(off)).toEqual({ title: off.title, text: off.text, mendedBy: "socket" });
+    await speak("it");
+    expect(hintOf(off).text).toMatch(/\+1,2 mm più a destra e -0,4 mm più in alto.*Renault Zoe/);
+    expect(hintOf({ ...off, code: "made_tomorrow" })).toEqual({ title: off.title, text: off.text, mendedBy: null });
   });
 
   test("of a moved label tells by how much", async () => {

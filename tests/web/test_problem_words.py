@@ -65,6 +65,32 @@ def test_every_sentence_of_a_routine_is_translated() -> None:
     assert said == listed
 
 
+def test_every_counted_sentence_of_a_routine_is_known_by_its_beginning() -> None:
+    folder = WEB.parents[1] / "server" / "calibration" / "routines"
+    source = "".join(path.read_text(encoding="utf-8") for path in folder.glob("*.py"))
+    said = set(re.findall(r'progress\.say\(\s*f"([^"{]+)\{', source))
+    counted = DOINGS.read_text(encoding="utf-8").split("const COUNTED")[1].split("as const")[0]
+    assert said == set(re.findall(r": /\^([^(]+)\(", counted))
+
+
+def test_every_question_of_a_routine_is_translated() -> None:
+    folder = WEB.parents[1] / "server" / "calibration" / "routines"
+    source = "".join(path.read_text(encoding="utf-8") for path in folder.glob("*_routine.py"))
+    asked = set(re.findall(r'progress\.(?:confirm|number)\(\s*f?"([^"]+)"', source))
+    assert "belts_{name}" in asked
+    asked = asked - {"belts_{name}"} | {"belts_left", "belts_right"}
+    known = (WEB / "calibration" / "asked.ts").read_text(encoding="utf-8")
+    assert asked == set(re.findall(r"^  (\w+): /", known, re.MULTILINE))
+
+
+def test_every_hint_is_translated() -> None:
+    folder = WEB.parents[1] / "server" / "calibration"
+    source = "".join(path.read_text(encoding="utf-8") for path in folder.rglob("*.py"))
+    given = set(re.findall(r'MaintenanceHint\(\s*code="(\w+)"', source))
+    known = (WEB / "calibration" / "hinted.ts").read_text(encoding="utf-8")
+    assert given == set(re.findall(r"^  (\w+): /", known, re.MULTILINE))
+
+
 def test_nothing_is_translated_that_the_server_never_says() -> None:
     source = "".join(
         path.read_text(encoding="utf-8")

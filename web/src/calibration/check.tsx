@@ -30,6 +30,11 @@ export function CheckView({ id, title, onClose = close }: Props) {
         <Check check={check} before={found[number + 1]} title={title} />
       )}
       <div class="calibration-actions">
+        {check !== undefined && (
+          <a class="button calibration-link" href={`/api/v1/calibrations/checks/${encodeURIComponent(id)}/report.pdf`} download>
+            {say.checks.report}
+          </a>
+        )}
         <button type="button" class="button" onClick={onClose}>
           {say.ended.close}
         </button>

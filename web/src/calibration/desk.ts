@@ -4,13 +4,15 @@ import { call, listVehicles, Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { Vehicle } from "@/api/wire";
 import { store } from "@/live/page";
-import { keep, kept } from "./kept";
+import { keep, kept } from "@/technician/parts/kept";
 import type {
   AccuracyCheck,
   AccuracyCheckPage,
   Calibration,
   CalibrationDetail,
   CalibrationPage,
+  Drift,
+  Hint,
   Routine,
   RoutineKind,
 } from "./types";
@@ -42,13 +44,18 @@ const read = signal(kept("localStorage", READ_KEPT_AS) ?? "");
 
 export const inForce = computed(() => store.live.value?.calibration?.in_force ?? null);
 export const routine = computed((): Routine | null => store.live.value?.calibration?.routine ?? null);
+/** What jobs have shown of the belts; null before any has. */
+export const drift = computed((): Drift | null => store.live.value?.calibration?.drift ?? null);
+/** What wears, or has moved. */
+export const hints = computed((): readonly Hint[] => store.live.value?.calibration?.hints ?? []);
 /** The routine, unless it has ended and somebody has read how. */
 export const unread = computed(() => (routine.value?.begun_at === read.value ? null : routine.value));
 export const isUnderWay = ({ state }: Routine): boolean => state === "running" || state === "interrupted";
 /** Whatever makes the lists old. */
 export const edition = computed(() => {
   const counting = inForce.value;
-  const ids = [counting?.camera, counting?.robot, ...(counting?.sockets ?? [])].map((each) => each?.id ?? "");
+  const { camera, robot, switches, play, force, sockets = [] } = counting ?? {};
+  const ids = [camera, robot, switches, play, force, ...sockets].map((each) => each?.id ?? "");
   return [routine.value?.calibration_id ?? "", routine.value?.check_id ?? "", ...ids].join();
 });
 
@@ -94,6 +101,9 @@ export async function readVersion(id: string): Promise<CalibrationDetail | null>
 }
 
 export const begin = (body: unknown): Promise<void> => act("/calibrations/routine", body);
+/** Answers what the routine asks; the value is null where it is enough to confirm. */
+export const answer = (code: string, value: number | null): Promise<void> =>
+  act("/calibrations/routine/confirm", { code, value });
 export const resume = (): Promise<void> => act("/calibrations/routine/resume");
 export const cancel = (): Promise<void> => act("/calibrations/routine/cancel");
 export const activate = (id: string, acceptWorse: boolean): Promise<void> =>

@@ -1,7 +1,7 @@
 /** Small drawings of what is to be prepared: the robot on its wall, the car, the label. */
 import type { ComponentChildren } from "preact";
 
-export type DrawingName = "looks" | "mated" | "nine";
+export type DrawingName = "looks" | "mated" | "nine" | "switches" | "play" | "belts" | "force";
 
 const DRAWINGS: Readonly<Record<DrawingName, ComponentChildren>> = {
   // The label in the middle, seen from many places.
@@ -27,6 +27,42 @@ const DRAWINGS: Readonly<Record<DrawingName, ComponentChildren>> = {
       <path class="plug" d="M6 40h24v-6h26v24H30v-6H6z" />
       <path class="thin" d="M38 72H14m8-6-8 6 8 6" />
       <Label x={62} y={20} />
+    </>
+  ),
+  // A carriage runs against its switch, again and again.
+  switches: (
+    <>
+      <Rail />
+      <path d="M12 30v40M12 44h8v12h-8" />
+      <rect x="46" y="36" width="28" height="28" rx="5" />
+      <path class="thin" d="M40 50H26m6-5-6 5 6 5M40 74c-8 8-20 4-20-4M40 82V73h-9" />
+    </>
+  ),
+  // A carriage comes to one place from both sides.
+  play: (
+    <>
+      <Rail />
+      <rect x="30" y="32" width="28" height="28" rx="5" />
+      <path class="thin" d="M8 46h14m-5-5 5 5-5 5M80 46H66m5-5-5 5 5 5" />
+      <path class="thin" d="M40 72v12M48 72v12M30 78h6M52 78h6" />
+    </>
+  ),
+  // A carriage has gone from its mark; the rule says how far.
+  belts: (
+    <>
+      <Rail />
+      <path class="thin" d="M18 26v28M18 40h26m-6-5 6 5-6 5" />
+      <rect x="52" y="28" width="24" height="24" rx="5" />
+      <path d="M8 64h72v16H8zM18 64v7M28 64v5M38 64v7M48 64v5M58 64v7M68 64v5" />
+    </>
+  ),
+  // The plug pushes a spring against something firm.
+  force: (
+    <>
+      <path class="plug" d="M4 42h16v-6h18v20H20v-6H4z" />
+      <path d="m40 46 5-9 7 18 7-18 7 18 5-9" />
+      <path class="rail" d="M78 22v48" />
+      <path class="thin" d="M14 76h28m-6-5 6 5-6 5" />
     </>
   ),
   // Nine places, each from below and from above.

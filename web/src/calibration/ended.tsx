@@ -7,9 +7,11 @@ import { say } from "./words";
 
 /** How the routine ended: what came of it, or why nothing did. */
 export function Ended({ routine }: { routine: Routine }) {
-  const { kind, calibration_id, check_id, problem, state } = routine;
+  const { kind, calibration_id, check_id, problem, state, figures } = routine;
   const words = say.routines[kind];
-  if (calibration_id !== null) return <VersionView id={calibration_id} title={words.done} onClose={putAway} />;
+  if (calibration_id !== null) {
+    return <VersionView id={calibration_id} title={words.done} figures={figures ?? []} onClose={putAway} />;
+  }
   if (check_id != null) return <CheckView id={check_id} title={words.done} onClose={putAway} />;
   return (
     <section class="calibration-ended">

@@ -22,7 +22,7 @@ export function Guide({ kind }: { kind: RoutineKind }) {
   const cars = vehicles.value;
   const car = cars.find(({ id }) => id === chosen.value) ?? cars[0];
   const { body, wrong } = requestOf(kind, description, typed.value, car?.id ?? null);
-  const hindrance = hindranceOf(description) ?? (car === undefined ? say.guide.noCar : null);
+  const hindrance = hindranceOf(description) ?? (description.needsLabel && car === undefined ? say.guide.noCar : null);
   return (
     <form
       class="calibration-guide"
@@ -46,12 +46,12 @@ export function Guide({ kind }: { kind: RoutineKind }) {
         ))}
       </ol>
       {description.plugIn && (
-        <a class="button calibration-jog" href="#jog">
+        <a class="button calibration-link" href="#jog">
           {say.guide.jog}
         </a>
       )}
       <div class="calibration-fields">
-        {cars.length > 1 && (
+        {description.needsLabel && cars.length > 1 && (
           <label class="field calibration-car">
             <span>{say.guide.car}</span>
             <select
@@ -81,7 +81,7 @@ export function Guide({ kind }: { kind: RoutineKind }) {
         ))}
       </div>
       {description.fieldHint !== undefined && <p class="soft small">{say.fieldHints[description.fieldHint]}</p>}
-      <CameraSwitch />
+      {description.needsLabel && <CameraSwitch />}
       {hindrance !== null && (
         <p class="panel-note" role="status">
           {hindrance}

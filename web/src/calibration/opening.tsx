@@ -3,7 +3,7 @@ import { computed } from "@preact/signals";
 import { store } from "@/live/page";
 import { later } from "@/technician/parts/later";
 import { Panel } from "@/technician/parts/panel";
-import { keep, kept } from "./kept";
+import { keep, kept } from "@/technician/parts/kept";
 import { say } from "./words";
 
 const OPEN_KEPT_AS = "plugpilot.calibration.open";
@@ -19,5 +19,6 @@ const Body = later(async () => (await import("./panel")).CalibrationBody);
 /** Calibrations: what is in use, measuring, teaching, checking. */
 export function CalibrationPanel() {
   const onToggled = (open: boolean): void => keep("sessionStorage", OPEN_KEPT_AS, open ? "yes" : "no");
-  return <Panel title={say.title} hint={say.hint} body={Body} wanted={wanted} onToggled={onToggled} />;
+  const hint = (store.live.value?.calibration?.hints ?? []).length > 0 ? say.wants : say.hint;
+  return <Panel title={say.title} hint={hint} body={Body} wanted={wanted} onToggled={onToggled} />;
 }

@@ -1,8 +1,10 @@
+import { Fragment } from "preact";
 import { may } from "@/access/session";
 import { formatDate, formatNumber } from "@/format";
 import { busy, checks, hasOlder, inForce, loadOlder, open, rollBack, vehicles, versions } from "./desk";
+import { WhatJobsShow } from "./drift";
 import { Drawing } from "./drawings";
-import { ROUTINE_KINDS, ROUTINES } from "./routines";
+import { GROUPS, ROUTINES } from "./routines";
 import type { AccuracyCheck, Calibration, RoutineKind } from "./types";
 import { say } from "./words";
 
@@ -10,14 +12,21 @@ import { say } from "./words";
 export function Overview() {
   return (
     <>
+      <WhatJobsShow />
       <InUse />
       <section>
         <h3>{say.begin}</h3>
-        <ul class="calibration-starts">
-          {ROUTINE_KINDS.map((kind) => (
-            <Start key={kind} kind={kind} />
-          ))}
-        </ul>
+        <p class="soft small">{say.order}</p>
+        {Object.entries(GROUPS).map(([group, kinds]) => (
+          <Fragment key={group}>
+            <h4>{say.groups[group as keyof typeof GROUPS]}</h4>
+            <ul class="calibration-starts">
+              {kinds.map((kind) => (
+                <Start key={kind} kind={kind} />
+              ))}
+            </ul>
+          </Fragment>
+        ))}
       </section>
       <Versions />
       <Checks />
@@ -40,6 +49,9 @@ function InUse() {
         )}
         {sockets.map((version) => (
           <Counting key={version.id} name={nameOf(version)} instead="" version={version} />
+        ))}
+        {(["switches", "play", "force"] as const).map((kind) => (
+          <Counting key={kind} name={say.kinds[kind]} instead={say.unmeasured} version={now?.[kind] ?? null} />
         ))}
       </ul>
     </section>
@@ -165,7 +177,10 @@ export function nameOf({ kind, values }: Calibration): string {
   return say.socketOf(vehicles.value.find(({ id }) => id === vehicle_id)?.name ?? vehicle_id);
 }
 
-export const unitOf = ({ kind }: Pick<Calibration, "kind">): "mm" | "px" => (kind === "camera" ? "px" : "mm");
+const UNITS = { camera: "px", force: "N" } as const;
+
+export const unitOf = ({ kind }: Pick<Calibration, "kind">): "mm" | "px" | "N" =>
+  kind === "camera" || kind === "force" ? UNITS[kind] : "mm";
 
 function errorOf(version: Calibration): string {
   if (version.error === null) return say.unmeasured;

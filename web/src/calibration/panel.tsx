@@ -2,6 +2,8 @@ import { useEffect } from "preact/hooks";
 import { may } from "@/access/session";
 import { TroubleNote } from "@/technician/parts/trouble";
 import "./calibration.css";
+import "./drift.css";
+import "./question.css";
 import "./plots/plots.css";
 import { CheckView } from "./check";
 import { close, edition, isUnderWay, loadLists, routine, trouble, unread, view } from "./desk";

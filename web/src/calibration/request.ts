@@ -28,8 +28,8 @@ export function textIn({ name, initial }: Field, typed: Typed): string {
 export const formatShort = (value: number): string => formatNumber(value, Number.isInteger(value) ? 0 : 2);
 
 /** Reads every field of a routine. */
-export function requestOf(kind: RoutineKind, { fields }: Description, typed: Typed, vehicleId: string | null): Reading {
-  const body: Body = vehicleId === null ? { kind } : { kind, vehicle_id: vehicleId };
+export function requestOf(kind: RoutineKind, { fields, needsLabel }: Description, typed: Typed, vehicleId: string | null): Reading {
+  const body: Body = vehicleId === null || !needsLabel ? { kind } : { kind, vehicle_id: vehicleId };
   const wrong: Wrong = {};
   const incomplete = new Set<string>();
   for (const field of fields) {
@@ -39,7 +39,7 @@ export function requestOf(kind: RoutineKind, { fields }: Description, typed: Typ
     if (text.trim() === "") incomplete.add(part);
     else if (value === null || (field.whole === true && !Number.isInteger(value))) wrong[field.name] = "noNumber";
     else if (value < field.least || value > field.most) wrong[field.name] = "between";
-    else if (inner === undefined) body[part] = value;
+    else if (inner === undefined) body[part] = field.percent === true ? value / 100 : value;
     else body[part] = { ...(body[part] as Body | undefined), [inner]: value };
   }
   for (const part of incomplete) delete body[part];

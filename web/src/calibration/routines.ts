@@ -18,10 +18,14 @@ export interface Field {
   readonly least: number;
   readonly most: number;
   readonly whole?: true;
+  /** Typed in per cent, sent as a share. */
+  readonly percent?: true;
 }
 
 export interface Description {
   readonly drawing: DrawingName;
+  /** A car with a label has to stand before the robot; the others look at nothing. */
+  readonly needsLabel: boolean;
   /** Usual number of places, until the server has chosen them, and the time each takes. */
   readonly looks: number;
   readonly lookTakes_s: number;
@@ -33,10 +37,40 @@ export interface Description {
 
 const sent_mm = { initial: 300, least: 50, most: 2000 } as const;
 const went_mm = { initial: null, least: 50, most: 2000 } as const;
+const repeated = { path: ["approaches"], least: 3, most: 30, whole: true } as const;
 
+/** In the order in which a new robot wants them. */
 export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
+  switches: {
+    drawing: "switches",
+    needsLabel: true,
+    looks: 10,
+    lookTakes_s: 15,
+    plugIn: false,
+    fields: [{ name: "homings", initial: 5, ...repeated }],
+  },
+  play: {
+    drawing: "play",
+    needsLabel: true,
+    looks: 16,
+    lookTakes_s: 8,
+    plugIn: false,
+    fields: [{ name: "reversals", initial: 4, ...repeated }],
+  },
+  belts: {
+    drawing: "belts",
+    needsLabel: false,
+    looks: 2,
+    lookTakes_s: 90,
+    plugIn: false,
+    fields: [
+      { name: "distance", path: ["distance_mm"], initial: 300, least: 50, most: 400 },
+      { name: "reading", path: ["reading_sigma_mm"], initial: 0.1, least: 0.01, most: 2 },
+    ],
+  },
   robot: {
     drawing: "looks",
+    needsLabel: true,
     looks: 25,
     lookTakes_s: 18,
     plugIn: false,
@@ -49,14 +83,34 @@ export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
     ],
     fieldHint: "belts",
   },
-  socket: { drawing: "mated", looks: 2, lookTakes_s: 15, plugIn: true, fields: [] },
+  force: {
+    drawing: "force",
+    needsLabel: false,
+    looks: 6,
+    lookTakes_s: 15,
+    plugIn: false,
+    fields: [
+      { name: "strokes", path: ["strokes"], initial: 3, least: 2, most: 20, whole: true },
+      { name: "stroke", path: ["stroke_mm"], initial: 12, least: 5, most: 100 },
+      { name: "spring", path: ["spring_n_mm"], initial: null, least: 0.1, most: 50 },
+      { name: "springKnown", path: ["spring_sigma"], initial: 2, least: 0.1, most: 20, percent: true },
+    ],
+    fieldHint: "spring",
+  },
+  socket: { drawing: "mated", needsLabel: true, looks: 2, lookTakes_s: 15, plugIn: true, fields: [] },
   check: {
     drawing: "nine",
+    needsLabel: true,
     looks: 9,
     lookTakes_s: 55,
     plugIn: false,
-    fields: [{ name: "approaches", path: ["approaches"], initial: 3, least: 3, most: 30, whole: true }],
+    fields: [{ name: "approaches", initial: 3, ...repeated }],
   },
 };
 
-export const ROUTINE_KINDS = Object.keys(ROUTINES) as RoutineKind[];
+/** The same order in groups: a list of all would be long on a phone. */
+export const GROUPS = {
+  axes: ["switches", "play", "belts"],
+  whole: ["robot", "force"],
+  use: ["socket", "check"],
+} as const satisfies Readonly<Record<string, readonly RoutineKind[]>>;

@@ -1,6 +1,6 @@
 /** What the server says in English about calibration, in the reader's language. */
-import { formatNumber } from "@/format";
 import { language } from "@/language/language";
+import { localised } from "./localised";
 import { say } from "./words";
 
 /** What a routine is doing, as the server says it. */
@@ -15,11 +15,23 @@ export const DOINGS = {
   mated: "Looking at the label with the plug in the socket.",
   draw: "Drawing the plug out.",
   back: "Looking at the label with the plug drawn back.",
+  first: "Going to the first place.",
+  second: "Going to the second place.",
+  rule: "Waiting for what the rule says.",
   kept: "The calibration is done. Nobody uses it yet.",
   checked: "The check is done.",
 } as const;
 
-export type Doings = Readonly<Record<keyof typeof DOINGS, string>>;
+/** The same, where it counts or names something. */
+const COUNTED = {
+  homing: /^Homing, (\d+) of (\d+)\.$/,
+  play: /^Bringing the (left|right) carriage to the same place from (below|above)\.$/,
+  freely: /^Moving the slide freely, (\d+) of (\d+)\.$/,
+  spring: /^Pushing the spring, (\d+) of (\d+)\.$/,
+} as const;
+
+export type Doings = Readonly<Record<keyof typeof DOINGS, string>> &
+  Readonly<Record<keyof typeof COUNTED, (...found: string[]) => string>>;
 
 /** What is solved for, as the server calls it. */
 export const UNKNOWNS = {
@@ -41,7 +53,7 @@ export const UNKNOWNS = {
 
 export type Unknowns = Readonly<Record<keyof typeof UNKNOWNS, string>>;
 
-/** Remarks of a verdict, each with a place for every number in it. */
+/** Remarks of a verdict, each with a place for everything in it that varies. */
 const REMARKS = {
   missed: /^Places that were held back are missed by ([\d.]+) mm: did/,
   missedUsable: /^Places that were held back are missed by ([\d.]+) mm; a good robot manages ([\d.]+) mm/,
@@ -50,12 +62,19 @@ const REMARKS = {
   hidden: /^The plug hid the label/,
   apart: /^The limit switches of the two carriages are ([\d.]+) mm further apart/,
   nearer: /^The limit switches of the two carriages are ([\d.]+) mm nearer together/,
+  beltsOnly: /^Only the belts were measured/,
+  loose: /^The (left|right) switch closes within (-?[\d.]+) mm only/,
+  play: /^The (left|right) carriage has (-?[\d.]+) mm of play/,
+  lag: /^The (left|right) carriage lags by ([\d.]+) mm/,
+  friction: /^The slide takes (-?[\d.]+) N to move freely/,
+  offset: /^Without any force the motor current shows (-?[\d.]+) N/,
+  scale: /^The shown force is ([\d.]+) times the true one/,
 } as const;
 
 const FAR = /^(.+) differs from the drawing by ([+-][\d.]+) (mm|degrees|%): /;
 const UNSEEN = /^(.+): the looks say little about that/;
 
-export type Remarks = Readonly<Record<keyof typeof REMARKS, (...numbers: string[]) => string>> & {
+export type Remarks = Readonly<Record<keyof typeof REMARKS, (...found: string[]) => string>> & {
   /** What is solved for, in the words of the reader. */
   readonly unknowns: Unknowns;
   readonly far: (what: string, difference: string) => string;
@@ -64,8 +83,15 @@ export type Remarks = Readonly<Record<keyof typeof REMARKS, (...numbers: string[
 
 /** What a routine is doing. */
 export function doingOf(sentence: string): string {
+  const words = say.doing;
+  if (words === null) return sentence;
   const known = Object.entries(DOINGS).find(([, each]) => each === sentence);
-  return known === undefined ? sentence : (say.doing?.[known[0] as keyof Doings] ?? sentence);
+  if (known !== undefined) return words[known[0] as keyof typeof DOINGS];
+  for (const [name, pattern] of Object.entries(COUNTED)) {
+    const found = pattern.exec(sentence);
+    if (found !== null) return words[name as keyof typeof COUNTED](...found.slice(1));
+  }
+  return sentence;
 }
 
 /** A remark in the reader's language; one that is not known stays as the server said it. */
@@ -96,10 +122,4 @@ export function unseenOf(sentence: string): string {
 function unknownOf(name: string, words: Remarks): string | null {
   const found = Object.entries(UNKNOWNS).find(([, each]) => each.toLowerCase() === name.toLowerCase());
   return found === undefined ? null : words.unknowns[found[0] as keyof Unknowns];
-}
-
-/** A number of the server, such as 0.06, as the reader's country writes it. */
-function localised(number: string): string {
-  const sign = number.startsWith("+") ? "+" : "";
-  return sign + formatNumber(Number(number), number.split(".")[1]?.length ?? 0);
 }

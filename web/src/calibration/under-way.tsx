@@ -5,6 +5,7 @@ import { busy, cancel, resume } from "./desk";
 import { useTimeLeft } from "./pace";
 import { CameraSwitch } from "./picture";
 import { LookMap } from "./plots/look-map";
+import { QuestionForm } from "./question";
 import { ROUTINES } from "./routines";
 import { doingOf } from "./translated";
 import type { Routine } from "./types";
@@ -18,22 +19,28 @@ export function UnderWay({ routine }: { routine: Routine }) {
   const total = routine.total || ROUTINES[kind].looks;
   const left_s = Math.ceil(useTimeLeft(routine) / ROUND_S) * ROUND_S;
   const interrupted = state === "interrupted";
+  const asks = interrupted ? null : (routine.asks ?? null);
+  const { needsLabel, plugIn } = ROUTINES[kind];
   const name = say.routines[kind].name;
   return (
-    <section class="calibration-run" data-tone={interrupted ? "ask" : "busy"}>
+    <section class="calibration-run" data-tone={interrupted || asks !== null ? "ask" : "busy"}>
       <h3>{name}</h3>
-      <p role="status">
-        <strong>{interrupted ? say.underWay.interrupted : doingOf(routine.doing)}</strong>
-      </p>
+      {asks === null ? (
+        <p role="status">
+          <strong>{interrupted ? say.underWay.interrupted : doingOf(routine.doing)}</strong>
+        </p>
+      ) : (
+        <QuestionForm key={asks.code} asks={asks} />
+      )}
       <progress max={total} value={Math.min(done, total)} aria-label={name} />
       <p class="calibration-pace">
-        <span>{say.underWay.place(done, total)}</span>
-        {!interrupted && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
+        <span>{needsLabel ? say.underWay.place(done, total) : say.underWay.step(done, total)}</span>
+        {!interrupted && asks === null && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
       </p>
       {problem !== null && <TroubleWords trouble={problem} />}
-      {interrupted && !ROUTINES[kind].plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
-      {looks.length > 1 && !ROUTINES[kind].plugIn && <LookMap looks={looks} />}
-      <CameraSwitch />
+      {interrupted && needsLabel && !plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
+      {looks.length > 1 && !plugIn && <LookMap looks={looks} />}
+      {needsLabel && <CameraSwitch />}
       <p class="soft small">{say.underWay.by(begun_by, formatDate(begun_at))}</p>
       <div class="calibration-actions">
         {interrupted && (

@@ -3,23 +3,25 @@ import { useEffect } from "preact/hooks";
 import { may } from "@/access/session";
 import { formatDate, formatDuration, formatNumber } from "@/format";
 import { activate, busy, close, edition, open, putAway, readVersion, rollBack, trouble, unread } from "./desk";
-import { Numbers } from "./numbers";
+import { Figures, Numbers } from "./numbers";
 import { Chips, nameOf, unitOf } from "./overview";
 import { BeforeAfter } from "./plots/before-after";
 import { Residuals } from "./plots/residuals";
 import { remarkOf, unseenOf } from "./translated";
-import type { CalibrationDetail } from "./types";
+import type { CalibrationDetail, Figure } from "./types";
 import { say } from "./words";
 
 interface Props {
   readonly id: string;
   /** Instead of the name of what was calibrated. */
   readonly title?: string;
+  /** What the routine that has just ended has found. */
+  readonly figures?: readonly Figure[];
   readonly onClose?: () => void;
 }
 
 /** One version: its verdict in words, before and after, what it rests on, and using it or not. */
-export function VersionView({ id, title, onClose = close }: Props) {
+export function VersionView({ id, title, figures = [], onClose = close }: Props) {
   const version = useSignal<CalibrationDetail | null>(null);
   const current = edition.value;
   useEffect(() => {
@@ -30,7 +32,7 @@ export function VersionView({ id, title, onClose = close }: Props) {
   const shown = version.value;
   return (
     <section class="calibration-version">
-      {shown === null ? <p class="soft">{say.loading}</p> : <Version version={shown} title={title} />}
+      {shown === null ? <p class="soft">{say.loading}</p> : <Version version={shown} title={title} figures={figures} />}
       <div class="calibration-actions">
         {shown !== null && <Use version={shown} />}
         <button type="button" class="button" onClick={onClose}>
@@ -47,7 +49,13 @@ function closing(shown: CalibrationDetail | null): string {
   return shown !== null && fresh && !shown.in_force ? say.result.discard : say.ended.close;
 }
 
-function Version({ version, title }: { version: CalibrationDetail; title: string | undefined }) {
+interface VersionProps {
+  readonly version: CalibrationDetail;
+  readonly title: string | undefined;
+  readonly figures: readonly Figure[];
+}
+
+function Version({ version, title, figures }: VersionProps) {
   const { grade, in_force, error, error_in_use, made_by, made_at, remarks, evidence, values, kind } = version;
   const unit = unitOf(version);
   return (
@@ -59,6 +67,7 @@ function Version({ version, title }: { version: CalibrationDetail; title: string
       <p>
         <strong>{say.result.verdicts[grade]}</strong> {in_force ? say.result.inUse : say.result.unused}
       </p>
+      <Figures figures={figures} />
       {kind === "socket" && <Taught version={version} />}
       {kind !== "socket" && error !== null && error_in_use !== null && (
         <BeforeAfter title={say.result.compared[kind]} unit={unit} before={error_in_use} after={error} />
@@ -66,7 +75,7 @@ function Version({ version, title }: { version: CalibrationDetail; title: string
       <Sentences title={say.result.remarks} sentences={remarks.map(remarkOf)} />
       {evidence !== null && values.kind === "robot" && <Residuals evidence={evidence} values={values} />}
       {evidence !== null && <Sentences title={say.result.unseen} sentences={evidence.unseen.map(unseenOf)} />}
-      <Numbers version={version} />
+      <Numbers version={version} folded={figures.length > 0} />
       <p class="soft small">
         {say.result.madeBy(made_by, formatDate(made_at))}
         {evidence !== null && ` · ${say.result.looks(evidence.looks.length, formatDuration(evidence.duration_s))}`}

@@ -21,8 +21,6 @@ export const PROBLEM_CODES = [
   "job_not_found", "job_ended", "cannot_pause", "not_paused", "schedule", "schedule_missed",
   "not_charging", "unknown_vehicle", "vehicle_required", "vehicle_in_use", "plug_state", "plug_seen_in_car",
   "plug_not_seen", "target_gone", "calibration_held", "calibration_unusable",
-  "calibration_no_question", "calibration_answer", "calibration_lost",
-  "calibration_slide_hit", "calibration_no_spring", "calibration_check_not_found",
   "interrupted", "socket_too_skewed", "insertion_jammed", "insertion_depth", "plug_missed",
   "no_contact", "connector_locked", "car_gone", "restarted_too_often", "long_outage",
   "charge_point", "charge_point_resting", "charge_point_unplugging", "localisation",

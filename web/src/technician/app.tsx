@@ -5,6 +5,7 @@ import { CameraPanel } from "./camera/panel";
 import { ConfigPanel } from "./config/panel";
 import { ConsolePanel } from "./console/panel";
 import { DiagnosticsPanel } from "./diagnostics/panel";
+import { UpdatedLine } from "./diagnostics/updated-line";
 import { JogPad } from "./jog/pad";
 import { Plots } from "./readings/plots";
 import { Values } from "./readings/values";
@@ -21,6 +22,7 @@ export function Technician() {
       <main class="bench">
         <h1 class="unseen">{say.title}</h1>
         <div class="column">
+          <UpdatedLine />
           <RobotBox />
           <Values />
         </div>

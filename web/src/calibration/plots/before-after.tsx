@@ -3,7 +3,7 @@ import { say } from "../words";
 
 interface Props {
   readonly title: string;
-  readonly unit: "mm" | "px";
+  readonly unit: "mm" | "px" | "N";
   /** Null where there was none. */
   readonly before: number | null;
   readonly after: number;

@@ -8,11 +8,13 @@ import { download } from "../parts/download";
 import { Panel } from "../parts/panel";
 import { TroubleNote } from "../parts/trouble";
 import { fetchBundle } from "./bundle";
+import { News } from "./news";
+import { newsWanted } from "./updated";
 import { say } from "./words";
 
 /** One file for whoever helps from afar, and what runs here. */
 export function DiagnosticsPanel() {
-  return <Panel title={say.title} hint={say.hint} body={Diagnostics} />;
+  return <Panel title={say.title} hint={say.hint} body={Diagnostics} wanted={newsWanted} />;
 }
 
 function Diagnostics() {
@@ -56,13 +58,19 @@ function Diagnostics() {
         {allowed ? note.value : say.notAllowed}
       </p>
       <TroubleNote trouble={trouble.value} />
-      <VersionList versions={versions.value} />
+      {versions.value === null ? (
+        <p class="soft">{say.loading}</p>
+      ) : (
+        <>
+          <News releases={versions.value.releases} />
+          <VersionList versions={versions.value} />
+        </>
+      )}
     </>
   );
 }
 
-function VersionList({ versions }: { versions: Versions | null }) {
-  if (versions === null) return <p class="soft">{say.loading}</p>;
+function VersionList({ versions }: { versions: Versions }) {
   const lines = [
     [say.software, versions.software],
     [say.board, versions.board ?? say.unknown],

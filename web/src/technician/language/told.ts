@@ -14,6 +14,8 @@ export const BENCH_PROBLEM_CODES = [
   "picture_too_bright", "wrong_payload", "label_ambiguous", "pose_rejected", "mirrored_code",
   "fit_failed", "tilt_ambiguous", "label_cut_off", "edges_do_not_fit", "edges_disagree",
   "modules_disagree", "distance_implausible", "tilt_implausible", "label_jumped",
+  "calibration_no_question", "calibration_answer", "calibration_lost", "calibration_slide_hit",
+  "calibration_no_spring", "calibration_check_not_found",
 ] as const;
 
 type Code = (typeof BENCH_PROBLEM_CODES)[number];

@@ -40,5 +40,11 @@ export const problems: BenchProblems = {
     distance_implausible: ["Die Marke scheint unmöglich weit weg zu sein", "Prüfen Sie die angegebene Größe der Marke."],
     tilt_implausible: ["Die Marke ist von der Seite zu sehen", "Parken Sie gerade vor dem Roboter."],
     label_jumped: ["Die Marke hat sich bewegt", "Lassen Sie Auto und Marke still stehen."],
+    calibration_no_question: ["Die Kalibrierung fragt das jetzt nicht", "Sehen Sie nach, was sie jetzt fragt."],
+    calibration_answer: ["Diese Zahl kann nicht stimmen", "Messen Sie noch einmal, und geben Sie die Zahl in der gezeigten Einheit ein."],
+    calibration_lost: ["PlugPilot wurde während der Kalibrierung neu gestartet", "Es hat sich nichts geändert. Beginnen Sie die Kalibrierung von vorn."],
+    calibration_slide_hit: ["Der Stecker ist auf etwas gestoßen", "Machen Sie den Weg vor dem Stecker frei, oder wählen Sie einen kürzeren Hub. Dann geht es weiter."],
+    calibration_no_spring: ["Der Stecker hat keine Feder gefunden", "Stellen Sie die Feder gerade vor den Stecker, in seine Reichweite. Dann geht es weiter."],
+    calibration_check_not_found: ["Diese Prüfung gibt es nicht", "Sehen Sie in der Liste der Prüfungen nach."],
   },
 };

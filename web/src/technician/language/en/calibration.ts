@@ -1,14 +1,25 @@
 /** What the panel for calibration says. */
+import type { Questions } from "@/calibration/asked";
+import type { Hints } from "@/calibration/hinted";
 import type { Doings, Remarks } from "@/calibration/translated";
+import { fieldHints, fields, routines } from "./routines";
 
-type Unit = "mm" | "px";
+type Unit = "mm" | "px" | "N";
 
 export const calibration = {
   title: "Calibration",
   hint: "Measure, teach, check",
+  wants: "Something wants care",
   loading: "Reading the calibrations…",
   notAllowed: "You may look. Only a technician or an owner may calibrate.",
-  kinds: { robot: "Robot", camera: "Camera", socket: "Socket" },
+  kinds: {
+    robot: "Robot",
+    camera: "Camera",
+    socket: "Socket",
+    switches: "Limit switches",
+    play: "Play of the carriages",
+    force: "Force of the slide",
+  },
   socketOf: (car: string): string => `Socket of ${car}`,
   numbered: (version: number): string => `version ${String(version)}`,
   grades: { good: "good", usable: "usable", bad: "bad" },
@@ -22,42 +33,10 @@ export const calibration = {
     backTo: (what: string): string => `Roll back: ${what}`,
   },
   begin: "Measure and check",
+  order: "A new robot wants them in this order.",
+  groups: { axes: "One axis at a time", whole: "The robot as a whole", use: "Teach and check" },
   about: (minutes: number): string => `about ${String(minutes)} min`,
-  routines: {
-    robot: {
-      name: "Measure the robot",
-      purpose: "Legs, rails, belts and how the camera is turned, from 25 looks at one label.",
-      prepare: [
-        "Let the car stand so that its label is before the middle of the robot. A label on a board that stands firm does as well.",
-        "Move each carriage 300 mm and measure with a rule how far it really went. The scale of everything comes from there.",
-        "From now on nobody touches the car, the label or the robot.",
-      ],
-      start: "Begin to measure",
-      done: "The robot has been measured",
-    },
-    socket: {
-      name: "Teach a socket",
-      purpose: "Where the socket is beside its label, with the plug all the way in.",
-      prepare: [
-        "Measure the robot first: another calibration of the robot moves what was taught.",
-        "Bring the plug all the way in. Jog slowly and feel the play on both sides, or let a job plug in.",
-        "The robot looks, draws the plug out along its axis and looks again. The car must not rock.",
-      ],
-      start: "The plug is in: teach",
-      done: "The socket has been taught",
-    },
-    check: {
-      name: "Check at nine places",
-      purpose: "How exactly the robot goes where it is sent, in the terms of ISO 9283.",
-      prepare: [
-        "Let the car stand so that its label is before the middle of the robot: it must be in the picture from at least four places.",
-        "The robot goes to nine places, to each from below and from above.",
-        "From now on nobody touches the car, the label or the robot.",
-      ],
-      start: "Begin the check",
-      done: "The check is done",
-    },
-  },
+  routines,
   guide: {
     prepare: "Before you begin",
     jog: "To the buttons that move the robot",
@@ -69,20 +48,12 @@ export const calibration = {
     noNumber: "This is not a number.",
     between: (least: string, most: string): string => `Give ${least} to ${most}.`,
   },
-  fields: {
-    leftSent: "Left carriage: sent, mm",
-    leftWent: "really went, mm",
-    rightSent: "Right carriage: sent, mm",
-    rightWent: "really went, mm",
-    label: "The label’s side was measured to, ± mm",
-    approaches: "Approaches of each place, from each side",
-  },
-  fieldHints: {
-    belts: "Leave empty what was not measured: the scale is then known to a quarter percent only.",
-  },
+  fields,
+  fieldHints,
   picture: { show: "Show the camera", hide: "Hide the camera" },
   underWay: {
     place: (done: number, total: number): string => `Place ${String(done)} of ${String(total)}`,
+    step: (done: number, total: number): string => `Step ${String(done)} of ${String(total)}`,
     left: (time: string): string => `about ${time} left`,
     by: (name: string, at: string): string => `Begun by ${name}, ${at}`,
     seen: "label seen",
@@ -94,6 +65,24 @@ export const calibration = {
     interrupted: "Interrupted",
     interruptedHint: "What has been measured is kept until PlugPilot ends.",
     resume: "Go on",
+  },
+  asking: {
+    still: "Nothing moves until you answer.",
+    confirm: "Done, go on",
+    number: (unit: string): string => `Reading, ${unit}`,
+    limits: (least: string, most: string, unit: string): string => `${least} to ${most} ${unit}`,
+    enter: "Enter it",
+  },
+  drift: {
+    title: "What jobs have shown",
+    moved: (moved: string, proven: string): string =>
+      `Places have moved by up to ${moved} mm since the robot was measured; within ${proven} mm is proven.`,
+    left: "Left belt",
+    right: "Right belt",
+    jobs: (count: number): string => (count === 1 ? "from 1 job" : `from ${String(count)} jobs`),
+    exceeds: (side: "left" | "right"): string =>
+      `That is more than was proven. Look at the tension of the ${side} belt, then measure the robot anew.`,
+    atBound: "No more may be learnt from jobs: measure the robot anew.",
   },
   ended: {
     failed: "That did not work",
@@ -119,6 +108,9 @@ export const calibration = {
     compared: {
       robot: "What is missed on looks that were held back",
       camera: "What is missed on pictures that were held back",
+      switches: "How sure the spread is",
+      play: "What each look is off by",
+      force: "What each stroke is off by",
     },
     missedBefore: "The place in use then missed by",
     before: "The one in use then",
@@ -161,6 +153,17 @@ export const calibration = {
       fy: "Focal length, down",
       cx: "Centre, across",
       cy: "Centre, down",
+      left_spread_mm: "Left switch, spread",
+      right_spread_mm: "Right switch, spread",
+      approaches: "Measured so often",
+      left_mm: "Left carriage, play",
+      right_mm: "Right carriage, play",
+      left_following_mm: "Left carriage, largest lag",
+      right_following_mm: "Right carriage, largest lag",
+      friction_n: "Friction of the slide",
+      offset_n: "Shown without any force",
+      scale: "Shown force over the true one",
+      following_mm: "Slide, largest lag",
     },
   },
   versions: {
@@ -171,6 +174,7 @@ export const calibration = {
   checks: {
     title: "Checks",
     none: "Nothing has been checked yet.",
+    report: "Download the report (PDF)",
     withVersion: "with a calibration in use",
     asDrawn: "robot as drawn",
     accuracy: "Accuracy, AP",
@@ -193,4 +197,6 @@ export const calibration = {
   /** In English the server's own sentences stand. */
   doing: null as Doings | null,
   remarks: null as Remarks | null,
+  questions: null as Questions | null,
+  hints: null as Hints | null,
 };

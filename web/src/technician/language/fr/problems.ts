@@ -40,5 +40,11 @@ export const problems: BenchProblems = {
     distance_implausible: ["L’étiquette semble à une distance impossible", "Vérifiez la taille indiquée de l’étiquette."],
     tilt_implausible: ["L’étiquette est vue de côté", "Garez-vous bien en face du robot."],
     label_jumped: ["L’étiquette a bougé", "Laissez la voiture et l’étiquette immobiles."],
+    calibration_no_question: ["L’étalonnage ne demande pas cela maintenant", "Regardez ce qu’il demande maintenant."],
+    calibration_answer: ["Ce nombre ne peut pas être juste", "Mesurez de nouveau, et saisissez le nombre dans l’unité affichée."],
+    calibration_lost: ["PlugPilot a redémarré pendant l’étalonnage", "Rien n’a changé. Recommencez l’étalonnage."],
+    calibration_slide_hit: ["Le connecteur a heurté quelque chose", "Dégagez le passage devant le connecteur, ou choisissez une course plus courte, puis continuez."],
+    calibration_no_spring: ["Le connecteur n’a pas rencontré de ressort", "Placez le ressort droit devant le connecteur, à sa portée, puis continuez."],
+    calibration_check_not_found: ["Ce contrôle n’existe pas", "Consultez la liste des contrôles."],
   },
 };

@@ -40,5 +40,11 @@ export const problems: BenchProblems = {
     distance_implausible: ["L’etichetta sembra a una distanza impossibile", "Controllare la misura indicata dell’etichetta."],
     tilt_implausible: ["L’etichetta si vede di lato", "Parcheggiare dritto davanti al robot."],
     label_jumped: ["L’etichetta si è mossa", "Lasciare ferme l’auto e l’etichetta."],
+    calibration_no_question: ["La calibrazione ora non chiede questo", "Guardare che cosa chiede ora."],
+    calibration_answer: ["Questo numero non può essere giusto", "Misurare di nuovo e inserire il numero nell’unità indicata."],
+    calibration_lost: ["PlugPilot è stato riavviato durante la calibrazione", "Non è cambiato nulla. Ricominciare la calibrazione."],
+    calibration_slide_hit: ["La spina ha urtato qualcosa", "Liberare lo spazio davanti alla spina, o scegliere una corsa più breve, poi continuare."],
+    calibration_no_spring: ["La spina non ha incontrato nessuna molla", "Mettere la molla diritta davanti alla spina, alla sua portata, poi continuare."],
+    calibration_check_not_found: ["Questa verifica non esiste", "Guardare l’elenco delle verifiche."],
   },
 };
