@@ -94,6 +94,8 @@ class RandomSegments:
             rate, last = -rate, -last
         before = end.rate[axis]
         rate = min(max(rate, before - LARGEST_JUMP), before + LARGEST_JUMP)
+        # With jumps so large most ends count as rests, and a segment behind a rest begins from 0.
+        rate = min(max(rate, -LARGEST_JUMP), LARGEST_JUMP)
         return rate, min(max(int((last - rate) / ticks), -MAX_RATE), MAX_RATE)
 
 
