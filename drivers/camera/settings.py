@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Annotated
+from urllib.parse import quote, urlsplit, urlunsplit
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, SecretStr, field_validator
 
 Rate = Annotated[float, Field(gt=0, le=240, allow_inf_nan=False)]
 Exposure = Annotated[float, Field(gt=0, le=1.0, allow_inf_nan=False)]
@@ -53,8 +54,28 @@ class StreamSettings(_Group):
     url: str = Field(
         "", pattern=r"^(|(rtsp|rtsps|http|https)://\S+)$", description="rtsp:// or http:// address"
     )
+    user: str = Field("", max_length=200, description="As set in the camera, if it asks for one")
+    password: SecretStr | None = Field(None, description="As set in the camera, if it asks for one")
     frames_per_s: Rate = 15.0
     latency_s: Latency = Field(0.2, description="From the exposure to the picture's arrival")
+
+    @field_validator("url")
+    @classmethod
+    def _shows_no_password(cls, url: str) -> str:
+        # The address is shown on the technician's page, in logs and in names.
+        if "@" in urlsplit(url).netloc:
+            raise ValueError("put who logs in into user and password, not into the address")
+        return url
+
+    @property
+    def address(self) -> str:
+        """The address with user and password, for the camera only."""
+        parts = urlsplit(self.url)
+        if not self.user:
+            return self.url
+        secret = "" if self.password is None else self.password.get_secret_value()
+        login = f"{quote(self.user, safe='')}:{quote(secret, safe='')}"
+        return urlunsplit(parts._replace(netloc=f"{login}@{parts.netloc}"))
 
 
 class ReplaySettings(_Group):

@@ -42,7 +42,7 @@ class StreamSource:
 
     @property
     def name(self) -> str:
-        """Name a person recognises; without the password that may stand in the address."""
+        """Name a person recognises."""
         parts = urlsplit(self._settings.url)
         return f"Camera at {parts.hostname or 'no address'}"
 
@@ -62,7 +62,7 @@ class StreamSource:
         self._gaps.restart()
         self._clock.restart()
         opened = capture.open(
-            self._settings.url,
+            self._settings.address,
             cv2.CAP_FFMPEG,
             [
                 cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, OPEN_TIMEOUT_MS,

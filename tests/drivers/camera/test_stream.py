@@ -10,6 +10,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import cv2
 import numpy as np
 import pytest
+from pydantic import SecretStr, ValidationError
 
 from drivers.camera.errors import CameraMissingError
 from drivers.camera.settings import StreamSettings
@@ -77,6 +78,13 @@ def test_an_address_is_needed() -> None:
         StreamSource(StreamSettings()).open()
 
 
-def test_a_password_in_the_address_is_not_shown() -> None:
-    source = StreamSource(StreamSettings(url="rtsp://admin:secret@camera.local/stream"))
-    assert source.name == "Camera at camera.local"
+def test_who_logs_in_stands_beside_the_address_and_is_shown_nowhere() -> None:
+    with pytest.raises(ValidationError, match="into user and password"):
+        StreamSettings(url="rtsp://admin:secret@camera.local/stream")
+    settings = StreamSettings(
+        url="rtsp://camera.local:8554/s?x=1", user="ad min", password=SecretStr("p@ss/word")
+    )
+    assert settings.address == "rtsp://ad%20min:p%40ss%2Fword@camera.local:8554/s?x=1"
+    assert StreamSource(settings).name == "Camera at camera.local"
+    assert "word@" not in f"{settings!r} {settings.model_dump_json()}"
+    assert StreamSettings(url="http://camera.local/").address == "http://camera.local/"
