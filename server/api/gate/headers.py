@@ -15,7 +15,7 @@ ALWAYS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     "Permissions-Policy": "camera=(), microphone=(), geolocation=(), payment=(), usb=(), "
-    "serial=(), bluetooth=(), screen-wake-lock=(self), gamepad=(self), fullscreen=(self), "
+    "serial=(), screen-wake-lock=(self), gamepad=(self), fullscreen=(self), "
     "publickey-credentials-get=(self), publickey-credentials-create=(self)",
     "Content-Security-Policy": "default-src 'none'; frame-ancestors 'none'; base-uri 'none'; "
     "form-action 'none'",
