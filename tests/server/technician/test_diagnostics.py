@@ -22,7 +22,11 @@ PASSWORD = "correct-horse-battery"  # noqa: S105 - what must not be found
 SETTINGS = Settings.model_validate(
     {
         "station": {"openevse": {"url": "http://10.0.0.9", "password": PASSWORD}},
-        "camera": {"link": {"stream": {"url": "rtsp://admin:hunter22@10.0.0.8/live"}}},
+        "camera": {
+            "link": {
+                "stream": {"url": "rtsp://10.0.0.8/live", "user": "admin", "password": "hunter22"}
+            }
+        },
     }
 )
 _log = logging.getLogger("plugpilot.test")
