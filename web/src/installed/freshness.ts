@@ -7,6 +7,7 @@
 import { effect, signal } from "@preact/signals";
 import { store } from "@/live/page";
 import { description } from "@/robot/view";
+import { renew } from "./push";
 
 const LOOK_MS = 2000;
 
@@ -60,7 +61,7 @@ async function register(): Promise<void> {
   });
   if ("Notification" in window && Notification.permission === "granted") {
     // What fails now is tried again when the page is opened the next time.
-    void import("./push").then(({ renew }) => renew()).catch(() => undefined);
+    void renew().catch(() => undefined);
   }
   // A page that stays open for weeks asks when it comes back to the robot.
   effect(() => {
