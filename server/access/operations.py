@@ -166,6 +166,11 @@ STOPS = frozenset(name for name, need in OPERATIONS.items() if need is Need.STOP
 FREQUENT = STOPS | {"jogRobot"}
 """In the audit trail one entry for each burst of these; of other operations one for each."""
 
+TOLD = frozenset(
+    {"inviteOwnDevice", "createInvitation", "withdrawInvitation", "addPasskey", "removePasskey"}
+)
+"""Where they succeed, whoever carries them out tells the audit trail more than their name."""
+
 
 def twin_messages(rights: Rights) -> frozenset[str]:
     """Types of messages that a browser with these rights may send to the 3D picture."""

@@ -65,6 +65,7 @@ def check_answer(case: Case[Any], server: ServerProcess) -> None:
     answer = case.operation.definition.raw["responses"].get(str(response.status_code), PROBLEM)
     if response.status_code == HTTPStatus.NO_CONTENT:
         assert not response.content, "an answer without content has some"
+        assert "content-type" not in response.headers, "it names a type of nothing"
     elif response.headers.get("content-type", [""])[0] in JSON:
         fitting = _validator(json.dumps(answer))
         errors = [f"{e.message} at {e.instance_path}" for e in fitting.iter_errors(response.json())]

@@ -21,7 +21,7 @@ from server.access.errors import (
     UnknownHostError,
     WrongOriginError,
 )
-from server.access.operations import FREQUENT, LARGE_BODIES, LIMITED, STOPS
+from server.access.operations import FREQUENT, LARGE_BODIES, LIMITED, STOPS, TOLD
 from server.api.errors import BodyTooLargeError, BodyTooSlowError
 from server.api.gate.body import MAX_BYTES, PATIENCE_S, read_body, replayed
 from server.api.gate.caller import find_caller, scheme_of
@@ -148,6 +148,9 @@ def _noted(access: Access, operation: Operation, caller: Caller, scope: Scope, s
     async def noting(message: Message) -> None:
         if message["type"] == "http.response.start":
             ok = message["status"] < 400
+            if ok and operation.name in TOLD:
+                await send(message)
+                return
             record = access.audit.record
             if operation.name in FREQUENT or not ok:
                 record = access.audit.record_burst

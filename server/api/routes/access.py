@@ -68,7 +68,13 @@ async def pair(
     return await _welcome(request, response, services, cookie, before)
 
 
-@router.delete("/session", status_code=204, operation_id="endSession", summary="Sign out")
+@router.delete(
+    "/session",
+    status_code=204,
+    response_class=Response,
+    operation_id="endSession",
+    summary="Sign out",
+)
 async def end_session(request: Request, response: Response, services: ServicesDep) -> None:
     """Sign this browser out."""
     caller = caller_of(request)
@@ -167,6 +173,7 @@ async def add_passkey(
 @router.delete(
     "/passkeys/{passkey_id}",
     status_code=204,
+    response_class=Response,
     operation_id="removePasskey",
     summary="Forget a passkey",
     responses=problem_responses(404),

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from datetime import timedelta
 from typing import Annotated
 
-from fastapi import APIRouter, Path, Query, Request
+from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.responses import StreamingResponse
 
 from server.access import Access
@@ -75,6 +75,7 @@ async def change_person(
 @router.delete(
     "/people/{person_id}",
     status_code=204,
+    response_class=Response,
     operation_id="removePerson",
     summary="Forget a person",
     responses=problem_responses(404, 409),
@@ -87,6 +88,7 @@ async def remove_person(person_id: EntryId, services: ServicesDep) -> None:
 @router.delete(
     "/devices/{device_id}",
     status_code=204,
+    response_class=Response,
     operation_id="removeDevice",
     summary="Forget a device",
     responses=problem_responses(404),
@@ -151,6 +153,7 @@ async def create_invitation(
 @router.delete(
     "/invitations/{invitation_id}",
     status_code=204,
+    response_class=Response,
     operation_id="withdrawInvitation",
     summary="Withdraw an invitation",
     responses=problem_responses(404),
@@ -188,6 +191,7 @@ async def create_key(wanted: KeyRequest, request: Request, services: ServicesDep
 @router.delete(
     "/keys/{key_id}",
     status_code=204,
+    response_class=Response,
     operation_id="revokeKey",
     summary="Revoke a key",
     responses=problem_responses(404),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Request, Response
 
 from server.api.dependencies import ServicesDep
 from server.api.gate import caller_of
@@ -26,6 +26,7 @@ async def get_push(request: Request, services: ServicesDep) -> PushState:
 @router.put(
     "",
     status_code=204,
+    response_class=Response,
     operation_id="subscribePush",
     summary="Notify this browser",
     responses=problem_responses(422, 503),
@@ -38,6 +39,7 @@ async def subscribe_push(wanted: PushSubscription, request: Request, services: S
 @router.delete(
     "",
     status_code=204,
+    response_class=Response,
     operation_id="unsubscribePush",
     summary="Do not notify this browser",
     responses=problem_responses(503),

@@ -96,6 +96,7 @@ async def put_vehicle(
 @router.delete(
     "/{vehicle_id}",
     status_code=204,
+    response_class=Response,
     operation_id="deleteVehicle",
     summary="Forget a vehicle",
     responses=problem_responses(404, 409, 412, 422, 503),

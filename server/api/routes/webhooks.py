@@ -110,6 +110,7 @@ async def put_webhook(
 @router.delete(
     "/{webhook_id}",
     status_code=204,
+    response_class=Response,
     operation_id="deleteWebhook",
     summary="Delete a webhook",
     responses=problem_responses(404, 412, 503),

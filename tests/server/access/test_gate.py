@@ -143,6 +143,26 @@ def test_every_refusal_of_an_invitation_is_the_same() -> None:
     at_the_gate(scenario)
 
 
+def test_the_trail_tells_of_an_invitation_once_and_of_a_refused_one_too() -> None:
+    async def scenario(scene: Scene, client: httpx.AsyncClient) -> None:
+        await client.post("access/invitations", json={"name": "Anna", "role": "viewer"})
+        (open_one,) = (await client.get("access/invitations")).json()["items"]
+        withdrawn = await client.delete(f"access/invitations/{open_one['id']}")
+        assert withdrawn.status_code == 204
+        assert "content-type" not in withdrawn.headers
+        again = await client.delete(f"access/invitations/{open_one['id']}")
+        problem(again, 404, "no_such_entry")
+        entries = await scene.services.access.audit.page(before=None, limit=3)
+        assert [entry.event for entry in entries] == [
+            "access",
+            "invitation.withdrawn",
+            "invitation.created",
+        ]
+        assert entries[0].detail["status"] == 404
+
+    at_the_gate(scenario, role=Role.OWNER)
+
+
 def test_a_long_body_is_refused_before_it_is_read() -> None:
     async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
         declared = await client.post("jobs", content=b" " * (MAX_BYTES + 1))
