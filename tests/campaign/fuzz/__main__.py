@@ -20,7 +20,7 @@ from pathlib import Path
 
 from tests.campaign.fuzz.http_requests import RawHttp, Rest
 from tests.campaign.fuzz.labels import Labels
-from tests.campaign.fuzz.memory import MemoryWatch
+from tests.campaign.fuzz.memory import FRUGAL_ALLOCATOR, MemoryWatch
 from tests.campaign.fuzz.serial_line import SerialLine
 from tests.campaign.fuzz.sockets import LiveSocket, TwinSocket
 from tests.campaign.fuzz.target import BrokenError, Target
@@ -40,6 +40,7 @@ def main() -> int:
     parser.add_argument("--log", type=Path, help="keep what the server logs in this file")
     options = parser.parse_args()
     logging.disable(logging.CRITICAL)  # of this process: the driver complains of the board's lies
+    os.environ.update(FRUGAL_ALLOCATOR)
     with tempfile.TemporaryDirectory() as scratch:
         config, log = Path(scratch) / "plugpilot.toml", options.log or Path(scratch) / "log"
         config.write_text(WEBHOOKS)

@@ -7,6 +7,16 @@ from statistics import median
 import psutil
 
 MIB = 1 << 20
+
+FRUGAL_ALLOCATOR = {
+    "MALLOC_ARENA_MAX": "1",
+    "MALLOC_MMAP_THRESHOLD_": str(1 << 16),
+    "MALLOC_TRIM_THRESHOLD_": str(1 << 17),
+}
+"""Environment of glibc in which memory that is free goes back at once: what a process holds then
+tells what it keeps, and not how pictures of threads lay beside each other. With the defaults the
+server settles 70 MiB higher, and in steps."""
+
 SETTLED = 0.4
 """Share of the run after which caches are full."""
 
