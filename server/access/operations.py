@@ -155,7 +155,9 @@ MESSAGES: Mapping[str, Need] = {
 }
 """Messages of clients on the WebSocket /api/v1/ws, by type."""
 
-COMMANDS = frozenset(
+JOB_COMMANDS = frozenset({"createJob", "cancelJob", "pauseJob", "resumeJob", "finishJob"})
+
+COMMANDS = JOB_COMMANDS | frozenset(
     {
         "enableRobot",
         "disableRobot",
@@ -165,11 +167,6 @@ COMMANDS = frozenset(
         "message jog",
         "message jog_step",
         "message move_to",
-        "createJob",
-        "cancelJob",
-        "pauseJob",
-        "resumeJob",
-        "finishJob",
         "activateCalibration",
         "rollBackCalibration",
         "beginCalibration",

@@ -6,7 +6,7 @@ from fastapi.requests import HTTPConnection
 from fastapi.routing import APIRoute
 
 from server.access import Caller
-from server.access.operations import COMMANDS
+from server.access.operations import COMMANDS, JOB_COMMANDS
 from server.api.dependencies import ServicesDep
 from server.api.gate import caller_of
 from server.control.seat import Operator
@@ -31,7 +31,8 @@ def admit_command(services: Services, caller: Caller, operation: str) -> None:
         ControlHeldError: somebody else is in control.
     """
     if operation in COMMANDS:
-        services.seat.command(operator_of(caller))
+        by_hand = operation not in JOB_COMMANDS
+        services.seat.command(operator_of(caller), by_hand=by_hand)
 
 
 async def commanding(connection: HTTPConnection, services: ServicesDep) -> None:

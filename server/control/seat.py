@@ -133,11 +133,13 @@ class ControlSeat:
         """Call ``reader`` with what becomes of every request."""
         self._readers.append(reader)
 
-    def command(self, operator: Operator | None) -> None:
+    def command(self, operator: Operator | None, *, by_hand: bool = True) -> None:
         """Somebody is about to command the robot, and sits down if the seat is free.
 
         Args:
             operator: Who. None: a program, which never sits down and never pushes anybody aside.
+            by_hand: No job is begun by time or by an energy manager until this person's control
+                ends, or the person begins one: there may be hands in the robot.
 
         Raises:
             ControlHeldError: somebody else is in control, or control is changing hands.
@@ -147,6 +149,7 @@ class ControlSeat:
             raise self._held()
         if operator is not None:
             self._sit(operator)
+            self._supervisor.reserved_for = operator.name if by_hand else None
 
     def ask(self, operator: Operator) -> None:
         """Ask for control; a free seat is taken at once.
@@ -257,6 +260,7 @@ class ControlSeat:
             self._end = None
         self._seat = None
         self._jog.operator = SOMEBODY
+        self._supervisor.reserved_for = None
 
     def _settle(self, answer: Answer) -> None:
         if self._silence is not None:

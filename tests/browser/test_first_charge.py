@@ -102,6 +102,7 @@ def test_control_changes_hands_when_its_holder_says_so(
         invited = owner.post("access/invitations", json={"name": "Tim", "role": "technician"})
         tim = browser.new_page()
         tim.goto(invited.json()["address"])
+        tim.locator(".link[data-link=live]").wait_for()
         tim.goto(f"{server.url}/technician")
         ask = tim.get_by_role("button", name="Ask for control")
         ask.click()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import timedelta
+
 import httpx
 
 from server.access import Role, Scope
@@ -76,3 +78,19 @@ def test_programs_and_viewers_take_no_control() -> None:
             await client.aclose()
 
     on_api(scenario)
+
+
+def test_no_job_begins_by_itself_under_somebodys_hands() -> None:
+    async def scenario(scene: Scene, owner: httpx.AsyncClient) -> None:
+        soon = (scene.services.calendar.now() + timedelta(seconds=5)).isoformat()
+        planned = await owner.post("jobs", json={"type": "plug_in", "not_before": soon})
+        assert planned.status_code == 202
+        assert (await owner.post("robot/disable")).status_code == 200
+        await scene.later(30)
+        job = (await owner.get(f"jobs/{planned.json()['id']}")).json()
+        assert job["state"] == "queued"
+        await owner.delete("robot/control")
+        await scene.until(lambda: scene.services.supervisor.holder is not None)
+        assert (await owner.get(f"jobs/{job['id']}")).json()["state"] == "running"
+
+    on_api(scenario, parked=True)
