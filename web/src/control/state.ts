@@ -61,7 +61,7 @@ export const secondsLeft = computed(() => {
 
 /** A name, and what that person is to the robot. */
 export const named = ({ name, role }: ControlPerson): string =>
-  `${name} (${access.roles[role].name.toLowerCase()})`;
+  words.control.person(name, access.roles[role].name);
 
 /** The person in control, and what moves the robot if that is not this person's hand. */
 export function whoControls({ robot, control: now }: Live): string {

@@ -2,11 +2,12 @@ import type { ControlWords } from "../types";
 
 /** Wer den Roboter steuert, und was man einander darüber sagt. */
 export const control: ControlWords = {
+  person: (name, role) => `${name} (${role})`,
   asks: (who) => `${who} möchte den Roboter übernehmen`,
   asksDetail: "Was Sie von Hand bewegen, hält dann an. Ein laufender Auftrag geht weiter.",
   keptIn: (seconds) => `Ohne Antwort steuern Sie weiter: ${String(seconds)} s.`,
   give: "Übergeben",
-  keep: "Weiter steuern",
+  keep: "Behalten",
   held: (who) => `${who} steuert den Roboter`,
   heldDetail: "Sie können zusehen und den Roboter jederzeit anhalten.",
   rival: (who) => `${who} hat schon darum gebeten.`,

@@ -1,5 +1,6 @@
 /** Who is in control of the robot, and what people say to each other about it. */
 export const control = {
+  person: (name: string, role: string): string => `${name} (${role.toLowerCase()})`,
   asks: (who: string): string => `${who} asks for control`,
   asksDetail: "What you move by hand stops when you give it. A running job goes on.",
   keptIn: (seconds: number): string => `Without an answer you keep it: ${String(seconds)} s.`,

@@ -2,6 +2,7 @@ import type { ControlWords } from "../types";
 
 /** Qui est aux commandes du robot, et ce qu’on se dit à ce sujet. */
 export const control: ControlWords = {
+  person: (name, role) => `${name} (${role.toLowerCase()})`,
   asks: (who) => `${who} demande les commandes`,
   asksDetail: "Ce que vous déplacez à la main s’arrête alors. Une tâche en cours continue.",
   keptIn: (seconds) => `Sans réponse, vous les gardez\u00a0: ${String(seconds)}\u00a0s.`,

@@ -2,6 +2,7 @@ import type { ControlWords } from "../types";
 
 /** Chi è ai comandi del robot, e che cosa ci si dice a riguardo. */
 export const control: ControlWords = {
+  person: (name, role) => `${name} (${role.toLowerCase()})`,
   asks: (who) => `${who} chiede i comandi`,
   asksDetail: "Ciò che si muove a mano allora si ferma. Un lavoro in corso continua.",
   keptIn: (seconds) => `Senza risposta restano qui: ${String(seconds)} s.`,
