@@ -23,7 +23,9 @@ from server.config.settings import Settings
 from server.config.storage import StorageSettings
 from server.control.jog import DEAD_MAN_S, Jog
 from server.control.path_check import Strength
+from server.control.seat import ANSWER_S, HOLD_S, ControlSeat
 from server.control.supervisor import Supervisor
+from server.control_trail import note_control
 from server.divergence import DivergenceWatcher
 from server.guidance.guide import Guide
 from server.integrations import Integrations
@@ -210,6 +212,9 @@ async def running(
             vehicles=vehicles,
             supervisor=supervisor,
             jog=jog,
+            seat=ControlSeat(
+                supervisor, jog, calendar, hold_s=HOLD_S * speed, answer_s=ANSWER_S * speed
+            ),
             runner=runner,
             station=station,
             camera=camera,
@@ -231,6 +236,7 @@ async def running(
             technician=technician,
         )
         show(services)
+        note_control(services)
         integrations.tell_events(services)
         await _start(services, stack, wait_for_robot=wait_for_robot)
         yield services

@@ -5,6 +5,7 @@ from __future__ import annotations
 from server.calibration.view import calibration_view
 from server.divergence.report import twin_report
 from server.guidance.view import guidance_view
+from server.live.control_view import control_view
 from server.live.twin_feed import feed_twin
 from server.live.views import robot_view, station_view
 from server.schema.live import Queue, Service
@@ -17,6 +18,8 @@ def show(services: Services) -> None:
     """Connect what changes to those who watch."""
     live, supervisor, runner = services.live, services.supervisor, services.runner
     live.add("robot", lambda: robot_view(supervisor, runner.socket, services.calendar))
+    live.add("control", lambda: control_view(services.seat))
+    services.seat.listen(lambda: live.changed("control", urgent=True))
     live.add("job", lambda: runner.newest and services.recordings.show(runner.newest))
     live.add("queue", lambda: Queue(waiting=runner.waiting))
     live.add(

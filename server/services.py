@@ -15,6 +15,7 @@ from server.calibration.versions.service import Calibrations
 from server.charge_point import ChargePointService
 from server.config.settings import Settings
 from server.control.jog import Jog
+from server.control.seat import ControlSeat
 from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.events import EventLog
@@ -51,6 +52,7 @@ class Services:
         vehicles: Known vehicles.
         supervisor: Owner of the robot.
         jog: Moves one axis for a person.
+        seat: Which person is in control.
         runner: Runs jobs.
         station: Newest reading of the charging station.
         camera: Pictures for people.
@@ -81,6 +83,7 @@ class Services:
     vehicles: VehicleStore
     supervisor: Supervisor
     jog: Jog
+    seat: ControlSeat
     runner: JobRunner
     station: StationWatch
     camera: CameraFeed

@@ -39,6 +39,11 @@ OPERATIONS: Mapping[str, Need] = {
     "enableRobot": Need.OPERATE,
     "disableRobot": Need.OPERATE,
     "homeRobot": Need.OPERATE,
+    "getControl": Need.READ,
+    "askForControl": Need.OPERATE,
+    "withdrawControlRequest": Need.OPERATE,
+    "answerControlRequest": Need.OPERATE,
+    "giveControlBack": Need.OPERATE,
     "getRobotReach": Need.READ,
     "jogRobot": Need.SERVICE,
     "confirmPlug": Need.OPERATE,
@@ -149,6 +154,29 @@ MESSAGES: Mapping[str, Need] = {
     "resync": Need.READ,
 }
 """Messages of clients on the WebSocket /api/v1/ws, by type."""
+
+JOB_COMMANDS = frozenset({"createJob", "cancelJob", "pauseJob", "resumeJob", "finishJob"})
+
+COMMANDS = JOB_COMMANDS | frozenset(
+    {
+        "enableRobot",
+        "disableRobot",
+        "homeRobot",
+        "jogRobot",
+        "confirmPlug",
+        "message jog",
+        "message jog_step",
+        "message move_to",
+        "activateCalibration",
+        "rollBackCalibration",
+        "beginCalibration",
+        "confirmCalibration",
+        "resumeCalibration",
+        "cancelCalibration",
+    }
+)
+"""What commands the robot. Whoever does is in control afterwards; while another person is, they are
+refused. A stop and its release are for everybody who has the right to them."""
 
 TWIN_MESSAGES: Mapping[str, Need] = {"ViewerCameraMessage": Need.READ}
 """Messages of the 3D client that may pass, by type. All others are dropped: none of them is needed

@@ -7,10 +7,11 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 
-from fastapi import APIRouter, FastAPI, WebSocket
+from fastapi import APIRouter, Depends, FastAPI, WebSocket
 
 from server.access.operations import twin_messages
 from server.api import root_certificate
+from server.api.commanding import commanding
 from server.api.contract import describe
 from server.api.gate import Gate, SecurityHeaders, caller_of
 from server.api.pages import pages_router
@@ -22,6 +23,7 @@ from server.api.routes import (
     charge_point,
     config,
     console,
+    control,
     diagnostics,
     events,
     guidance,
@@ -73,10 +75,11 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
-    api = APIRouter(prefix=PREFIX, responses=ANY_PROBLEM)
+    api = APIRouter(prefix=PREFIX, responses=ANY_PROBLEM, dependencies=[Depends(commanding)])
     for module in (
         health,
         robot,
+        control,
         target,
         console,
         jobs,

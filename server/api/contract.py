@@ -9,6 +9,7 @@ from fastapi import FastAPI
 from pydantic import TypeAdapter
 
 from server.access import OPERATIONS, Need
+from server.access.operations import COMMANDS
 from server.api.examples import BODIES, MODELS, REQUESTS
 from server.api.gate.caller import COOKIE
 from server.api.problem_examples import problem_example
@@ -88,6 +89,8 @@ def _add_statuses(operation: Document) -> None:
         statuses.add(503)  # the disk, or PlugPilot is ending
     if OPERATIONS[operation["operationId"]] is not Need.ANYONE:
         statuses |= {401, 403}
+    if operation["operationId"] in COMMANDS:
+        statuses.add(409)  # somebody else is in control
     if operation.get("parameters"):
         statuses.add(422)
     if "requestBody" in operation:

@@ -9,6 +9,7 @@ from typing import Any
 
 from server.api.access_examples import ACCESS_MODELS
 from server.api.calibration_examples import CALIBRATION_MODELS, CALIBRATION_REQUESTS
+from server.api.control_examples import CONTROL_MODELS
 from server.api.technician_examples import TECHNICIAN_MODELS
 
 Json = Any
@@ -82,6 +83,7 @@ _DELIVERY: dict[str, Json] = {
 MODELS: dict[str, Json] = {
     **ACCESS_MODELS,
     **TECHNICIAN_MODELS,
+    **CONTROL_MODELS,
     **CALIBRATION_MODELS,
     "ChargePoint": {
         "cp_state": "C",

@@ -1,8 +1,13 @@
 """Errors of control.
 
 ControlError
-├── ControlBusyError             somebody else has control
+├── ControlBusyError             something else moves the robot
 ├── ControlLostError             the lease was ended while it was in use
+├── ControlHeldError             another person is in control
+├── NotInControlError            control is not this person's to give
+├── NobodyAsksError              nobody waits for this answer
+├── RequestPendingError          another person asks for control already
+├── PeopleOnlyError              a program asks for control
 ├── RobotOfflineError            no link to the motion board
 ├── RobotNotReadyError           drives off or not homed
 ├── RobotStoppedError            a protective stop is in force
@@ -56,6 +61,47 @@ class ControlLostError(ControlError):
     code = "control_lost"
     title = "Control of the robot was taken away"
     remedy = "Start again when the robot is free."
+
+
+class ControlHeldError(ControlError):
+    """Another person is in control of the robot."""
+
+    code = "control_held"
+    title = "Somebody else is in control of the robot"
+    remedy = "Ask for control on the page, or wait until it is free. You can stop the robot anyhow."
+
+
+class NotInControlError(ControlError):
+    """Control is not this person's to give."""
+
+    code = "not_in_control"
+    title = "You are not in control of the robot"
+    remedy = "Look at the page to see who is."
+
+
+class NobodyAsksError(ControlError):
+    """Nobody waits for this answer."""
+
+    code = "nobody_asks"
+    title = "Nobody asks for control any more"
+    remedy = "There is nothing to do."
+
+
+class RequestPendingError(ControlError):
+    """Another person asks for control already."""
+
+    code = "control_request_pending"
+    title = "Somebody else asks for control already"
+    remedy = "Wait until that is answered, half a minute at most."
+
+
+class PeopleOnlyError(ControlError):
+    """A program asks for control, which only people can give and take."""
+
+    code = "people_only"
+    title = "Only people take control of the robot"
+    status = 403
+    remedy = "Use a paired browser. A program commands the robot while nobody is in control."
 
 
 class RobotOfflineError(ControlError):

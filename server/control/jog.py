@@ -8,7 +8,12 @@ from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Literal
 
-from server.control.errors import ControlError, MotionOutOfReachError, RobotNotReadyError
+from server.control.errors import (
+    ControlError,
+    ControlLostError,
+    MotionOutOfReachError,
+    RobotNotReadyError,
+)
 from server.control.lease import Lease
 from server.control.motion import Motion
 from server.control.path_check import can_hold
@@ -31,6 +36,9 @@ LIMIT_MARGIN_MM = 0.5
 FIRST_STRIDE_MM = 8.0
 LAST_STRIDE_MM = 0.25
 
+SOMEBODY = "A technician"
+"""While nobody has said who it is."""
+
 _JOINT_OF = {"rho1": 0, "rho2": 1, "rho3": 2, "insertion": 2}
 
 
@@ -40,6 +48,9 @@ class Jog:
     Args:
         supervisor: Owner of the robot.
         dead_man_s: Silence after which a held button counts as released, in event loop time.
+
+    Attributes:
+        operator: Whose hand it is; whoever else watches sees the name.
     """
 
     def __init__(self, supervisor: Supervisor, dead_man_s: float = DEAD_MAN_S) -> None:
@@ -48,18 +59,29 @@ class Jog:
         self._task: asyncio.Task[None] | None = None
         self._held: Hashable | None = None
         self._deadline: asyncio.TimerHandle | None = None
+        self._step: Motion | None = None
+        self._step_over = asyncio.Event()
+        self.operator = SOMEBODY
 
     async def step(self, axis: Axis, distance_mm: float, speed_mm_s: float) -> None:
         """Move one axis by a distance; returns when it is there.
 
         Raises:
             ControlError: somebody else has control, or the robot may not or cannot go there.
+            ControlLostError: control changed hands on the way.
         """
         async with (
-            self._supervisor.control("jog", "A technician") as lease,
+            self._supervisor.control("jog", self.operator) as lease,
             self._supervisor.plug_may_move(),
         ):
-            await self._supervisor.follow(lease, self._plan(axis, distance_mm, speed_mm_s))
+            plan = self._plan(axis, distance_mm, speed_mm_s)
+            self._step = self._supervisor.start_motion(lease, plan)
+            self._step_over.clear()
+            try:
+                await self._supervisor.run(self._step)
+            finally:
+                self._step = None
+                self._step_over.set()
 
     def hold(self, axis: Axis, direction: int, speed_mm_s: float) -> None:
         """The button is held: begin to move, or go on.
@@ -96,7 +118,7 @@ class Jog:
             else:
                 self.release()
             return
-        lease = self._supervisor.acquire("jog", "A technician")
+        lease = self._supervisor.acquire("jog", self.operator)
         try:
             motion = self._supervisor.start_motion(lease, make_plan())
         except BaseException:
@@ -114,6 +136,14 @@ class Jog:
         if self._held is not None and self._task is not None:
             self._held = None
             self._task.cancel()
+
+    async def break_off(self, reason: str) -> None:
+        """End whatever a hand moves, and wait until it has come to rest."""
+        self.release()
+        if self._step is not None:
+            self._step.interrupt(ControlLostError(reason))
+            await self._step_over.wait()
+        await self.wait_stopped()
 
     async def wait_stopped(self) -> None:
         """Wait until the held motion has come to rest."""

@@ -89,6 +89,7 @@ class Supervisor(Mover):
         self._driver = driver
         self._witness = PlugWitness(plug, station, settings)
         self._desk = LeaseDesk(calendar)
+        self.reserved_for: str | None = None  # who commands by hand; no job begins by itself
         self._listeners = Listeners()
         self._protection = Protection(
             driver, board, plug, settings, interrupt=self._interrupt, changed=self._changed

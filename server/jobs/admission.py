@@ -6,6 +6,7 @@ from datetime import datetime
 
 from uuid6 import uuid7
 
+from server.control.errors import ControlBusyError
 from server.control.model import PlugState, RobotMode
 from server.control.supervisor import Supervisor
 from server.jobs.errors import (
@@ -110,9 +111,13 @@ def refuse_if_impossible(job_type: JobType, supervisor: Supervisor) -> None:
     """Refuse what the robot's mode or the plug's place rules out.
 
     Raises:
+        ControlBusyError: a person commands the robot by hand.
         ControlError: the robot cannot move, and the job could not change that.
         PlugStateError: the plug is not where the job needs it.
     """
+    person = supervisor.reserved_for
+    if person is not None:
+        raise ControlBusyError(f"{person} is in control of the robot.", holder=person)
     mode = supervisor.mode
     if mode not in CAN_BE_MADE_READY:
         problem = supervisor.why_not_moving()

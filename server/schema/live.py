@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from server.schema.base import Timestamp, Wire
+from server.schema.control import Control
 from server.schema.divergence import TwinReport
 from server.schema.guidance import Guidance
 from server.schema.jobs import Job
@@ -60,10 +61,11 @@ class Live(Wire):
     guidance: Guidance | None = None
     queue: Queue = Queue()
     calibration: CalibrationNow = CalibrationNow()
+    control: Control = Control()
 
 
 class LiveChanges(Wire):
-    """The sections that changed; absent ones did not."""
+    """The sections that changed; absent ones did not, and null says that there is none any more."""
 
     robot: Robot | None = None
     job: Job | None = None
@@ -73,6 +75,7 @@ class LiveChanges(Wire):
     guidance: Guidance | None = None
     queue: Queue | None = None
     calibration: CalibrationNow | None = None
+    control: Control | None = None
 
 
 class SnapshotMessage(Wire):

@@ -18,6 +18,7 @@ from playwright.sync_api import Page
 from server.schema.live import Live
 from tests.browser.bench_scenes import OPENED as BENCH_OPENED
 from tests.browser.chromium import DESKTOP, PHONE, chromium
+from tests.browser.control_scenes import SCENES as CONTROL
 from tests.browser.guidance_scenes import SCENES as GUIDANCE
 from tests.browser.languages import LOCALES
 from tests.browser.scenes import SCENES
@@ -28,6 +29,7 @@ SIZES = {"phone": PHONE, "desktop": DESKTOP}
 SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 STATES: Mapping[str, Live] = {
     **SCENES,
+    **CONTROL,
     **{
         f"guidance-{name}": SCENES["ready"].model_copy(update={"guidance": guidance})
         for name, guidance in GUIDANCE.items()

@@ -135,7 +135,16 @@ class Stage:
         robot = self.live.robot.model_copy(update={"updated_at": updated_at})
         differing = {
             name: getattr(self.live, name)
-            for name in ("job", "station", "service", "twin", "queue", "guidance", "calibration")
+            for name in (
+                "job",
+                "station",
+                "service",
+                "twin",
+                "queue",
+                "guidance",
+                "calibration",
+                "control",
+            )
             if getattr(self.live, name) != getattr(shown, name)
         }
         return LiveChanges(robot=robot, **differing)

@@ -94,6 +94,33 @@ def test_a_job_that_is_not_possible_is_explained(phone: Page, server: ServerProc
         assert client.get("robot").json()["mode"] == "ready"
 
 
+def test_control_changes_hands_when_its_holder_says_so(
+    browser: Browser, phone: Page, server: ServerProcess
+) -> None:
+    with server.rest() as owner:
+        owner.post("robot/control/request").raise_for_status()
+        invited = owner.post("access/invitations", json={"name": "Tim", "role": "technician"})
+        tim = browser.new_page()
+        tim.goto(invited.json()["address"])
+        tim.locator(".link[data-link=live]").wait_for()
+        tim.goto(f"{server.url}/technician")
+        ask = tim.get_by_role("button", name="Ask for control")
+        ask.click()
+        question = phone.get_by_role("alert").filter(has_text="Tim (technician) asks for control")
+        question.get_by_role("button", name="Keep control").tap()
+        expect(tim.locator(".control-notice")).to_contain_text("keeps control")
+
+        tim.get_by_role("button", name="Got it").click()
+        ask.click()
+        question.get_by_role("button", name="Give control").tap()
+        expect(tim.locator(".control-notice")).to_contain_text("has given you control")
+        expect(phone.locator(".control-notice")).to_contain_text("Tim (technician) is in control")
+        expect(phone.get_by_role("button", name="Charge", exact=True)).to_be_disabled()
+        assert owner.get("robot/control").json()["holder"]["person"]["name"] == "Tim"
+        assert owner.post("robot/enable").json()["code"] == "control_held"
+    tim.close()
+
+
 def test_a_lost_server_is_said_without_pushing_the_page_aside(browser: Browser) -> None:
     with serving("--speed", SPEED) as server:
         context = browser.new_context(viewport={"width": PHONE["width"], "height": PHONE["height"]})

@@ -1,4 +1,5 @@
 import { beforeEach, describe, expect, test } from "vitest";
+import type { Guidance } from "@/api/wire";
 import { LiveStore, merge } from "@/live/store";
 import { at, delta, job, live, robot, snapshot, station } from "./states";
 
@@ -17,10 +18,13 @@ describe("merging", () => {
     expect(after.station).toBe(before.station);
   });
 
-  test("takes a null section as unchanged", () => {
-    const before = live({ job: job() });
-    const after = merge(before, { robot: null, job: null, station: null, service: null });
-    expect(after).toEqual(before);
+  test("takes a null section as gone where there may be none", () => {
+    const guidance = {} as Guidance;
+    const before = { ...live({ job: job() }), guidance };
+    const after = merge(before, { robot: null, job: null, guidance: null });
+    expect(after.job).toBeNull();
+    expect(after.guidance).toBeNull();
+    expect(after.robot).toBe(before.robot);
   });
 });
 

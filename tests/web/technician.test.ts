@@ -183,7 +183,7 @@ describe("what is not open", () => {
   test("names who has control", async () => {
     const control = { kind: "job", name: "Charging job", since: at(0) } as const;
     show(live({ robot: robot({ control }) }));
-    await screen.findByText("Charging job has control.");
+    await screen.findByText("The running job has control.");
   });
 
   test("leaves only the way out with the plug in a socket", async () => {

@@ -25,8 +25,9 @@ LANGUAGE = WEB / "language"
 BENCH = WEB / "technician" / "language" / "told.ts"
 DOINGS = WEB / "calibration" / "translated.ts"
 ROOMS = (access, charge_point, control, jobs, localisation, push, recordings)
-OF_PROGRAMS = {"idempotency_key_reused", "cancelled"}
-"""Nobody sees these: the page makes its keys itself, and a cancelled job is no failure."""
+OF_PROGRAMS = {"idempotency_key_reused", "cancelled", "people_only"}
+"""Nobody sees these: the page makes its keys itself, a cancelled job is no failure, and whoever
+sees a page is a person."""
 
 
 def _kinds(kind: type[PlugPilotError]) -> Iterator[type[PlugPilotError]]:

@@ -1,3 +1,4 @@
+import { ControlNotice, ControlQuestion } from "@/control/notices";
 import { GuidanceCard } from "@/guidance/card";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { GuideDialog } from "@/parts/guide";
@@ -28,6 +29,7 @@ export function App() {
         <div class="column">
           <GuidanceCard />
           <Hero />
+          <ControlNotice />
           <TwinAlarm />
           <Notices />
           <StationCard />
@@ -41,6 +43,7 @@ export function App() {
         </div>
       </main>
       <StopBar />
+      <ControlQuestion />
       <GuideDialog />
       <QuestionDialog />
       <ChoiceDialog />

@@ -11,6 +11,7 @@ from typing import Any
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
+from server.api.commanding import admit_command
 from server.api.dependencies import ServicesDep
 from server.api.errors import InvalidRequestError
 from server.api.gate import admit_message, caller_of
@@ -127,6 +128,7 @@ class _Connection:
         error: PlugPilotError | None = None
         try:
             admit_message(self._services.access, self._caller, message.type)
+            admit_command(self._services, self._caller, f"message {message.type}")
             await self._carry_out(message)
         except PlugPilotError as caught:
             error = caught

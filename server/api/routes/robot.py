@@ -66,7 +66,7 @@ async def reset(services: ServicesDep) -> Robot:
 )
 async def enable(services: ServicesDep) -> Robot:
     """Switch the drives on."""
-    async with services.supervisor.control("jog", "A technician") as lease:
+    async with services.supervisor.control("jog", services.jog.operator) as lease:
         await services.supervisor.enable(lease)
     return _now(services)
 
@@ -76,7 +76,7 @@ async def enable(services: ServicesDep) -> Robot:
 )
 async def disable(services: ServicesDep) -> Robot:
     """Switch the drives off."""
-    async with services.supervisor.control("jog", "A technician") as lease:
+    async with services.supervisor.control("jog", services.jog.operator) as lease:
         await services.supervisor.disable(lease)
     return _now(services)
 

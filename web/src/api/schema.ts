@@ -1304,6 +1304,77 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/control": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read who is in control
+         * @description Who is in control, and who asks for it.
+         */
+        readonly get: operations["getControl"];
+        readonly put?: never;
+        readonly post?: never;
+        /**
+         * Give control back
+         * @description Be in control no more; whoever asks for it gets it.
+         */
+        readonly delete: operations["giveControlBack"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/robot/control/answer": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Give control, or keep it
+         * @description Answer whoever asks for control.
+         *
+         *     When it is given, a motion by hand ends first. A job or a calibration goes on, and whoever has
+         *     asked looks after it from then on.
+         */
+        readonly post: operations["answerControlRequest"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/robot/control/request": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly get?: never;
+        readonly put?: never;
+        /**
+         * Ask for control
+         * @description Take control if it is free; otherwise ask whoever has it, who has 30 s to answer.
+         */
+        readonly post: operations["askForControl"];
+        /**
+         * Ask no more
+         * @description Withdraw one's own request; harmless when there is none.
+         */
+        readonly delete: operations["withdrawControlRequest"];
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot/disable": {
         readonly parameters: {
             readonly query?: never;
@@ -2667,6 +2738,41 @@ export interface components {
             readonly number: number;
         };
         /**
+         * Control
+         * @description Who commands the robot. What moves it at this moment is told by Robot.control.
+         */
+        readonly Control: {
+            /** @description Of the newest request; null before there was any */
+            readonly answer?: components["schemas"]["ControlAnswer"] | null;
+            /** @description Null: whoever commands next */
+            readonly holder?: components["schemas"]["ControlSeat"] | null;
+            readonly request?: components["schemas"]["ControlRequest"] | null;
+        };
+        /**
+         * ControlAnswer
+         * @description What became of the newest request.
+         */
+        readonly ControlAnswer: {
+            /**
+             * Answer
+             * @description given, and ended when the other's time was over: who asked is in control
+             * @enum {string}
+             */
+            readonly answer: "given" | "kept" | "unanswered" | "withdrawn" | "ended";
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /** @description Who was in control */
+            readonly by: components["schemas"]["ControlPerson"];
+            /** @description Who asked */
+            readonly person: components["schemas"]["ControlPerson"];
+            /** Request Id */
+            readonly request_id: string;
+        };
+        /**
          * ControlHolder
          * @description Who has control of the robot.
          */
@@ -2682,6 +2788,77 @@ export interface components {
              * @example Charging job
              */
             readonly name: string;
+            /**
+             * Since
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly since: string;
+        };
+        /**
+         * ControlPerson
+         * @description Somebody, as everybody who watches sees them.
+         */
+        readonly ControlPerson: {
+            /**
+             * Id
+             * @description As in AccessSession.person
+             * @example 018f3c7e-anna
+             */
+            readonly id: string;
+            /**
+             * Name
+             * @example Anna
+             */
+            readonly name: string;
+            readonly role: components["schemas"]["Role"];
+        };
+        /**
+         * ControlReply
+         * @description The answer of whoever is in control.
+         */
+        readonly ControlReply: {
+            /**
+             * Give
+             * @description False: keep control
+             */
+            readonly give: boolean;
+            /** Request Id */
+            readonly request_id: string;
+        };
+        /**
+         * ControlRequest
+         * @description Another person asks for control.
+         */
+        readonly ControlRequest: {
+            /**
+             * Asked At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly asked_at: string;
+            /**
+             * Ends At
+             * Format: date-time
+             * @description No answer until then means no
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly ends_at: string;
+            /** Id */
+            readonly id: string;
+            readonly person: components["schemas"]["ControlPerson"];
+        };
+        /**
+         * ControlSeat
+         * @description One person is in control.
+         */
+        readonly ControlSeat: {
+            /**
+             * Ends At
+             * @description When control ends if the person commands nothing more; null while the robot moves, or is being jogged or calibrated
+             */
+            readonly ends_at: string | null;
+            readonly person: components["schemas"]["ControlPerson"];
             /**
              * Since
              * Format: date-time
@@ -4027,6 +4204,14 @@ export interface components {
              *     }
              */
             readonly calibration?: components["schemas"]["CalibrationNow"];
+            /**
+             * @default {
+             *       "answer": null,
+             *       "holder": null,
+             *       "request": null
+             *     }
+             */
+            readonly control?: components["schemas"]["Control"];
             /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @description The running job, else the newest one, else null */
@@ -4049,11 +4234,13 @@ export interface components {
         };
         /**
          * LiveChanges
-         * @description The sections that changed; absent ones did not.
+         * @description The sections that changed; absent ones did not, and null says that there is none any more.
          */
         readonly LiveChanges: {
             /** @default null */
             readonly calibration?: components["schemas"]["CalibrationNow"] | null;
+            /** @default null */
+            readonly control?: components["schemas"]["Control"] | null;
             /** @default null */
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
@@ -10001,6 +10188,263 @@ export interface operations {
                      *     }
                      */
                     readonly "application/json": components["schemas"]["Robot"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getControl: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "answer": null,
+                     *       "holder": {
+                     *         "ends_at": "2026-03-01T18:05:02.300Z",
+                     *         "person": {
+                     *           "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *           "name": "Anna",
+                     *           "role": "owner"
+                     *         },
+                     *         "since": "2026-03-01T18:03:41.700Z"
+                     *       },
+                     *       "request": {
+                     *         "asked_at": "2026-03-01T18:04:05.120Z",
+                     *         "ends_at": "2026-03-01T18:04:35.120Z",
+                     *         "id": "7d0f8f0e-3c63-4a0c-9d0b-2a54f2f4f0c1",
+                     *         "person": {
+                     *           "id": "01957a3b-a1c0-7c3d-8e52-4d1b9f7a2c06",
+                     *           "name": "Ben",
+                     *           "role": "technician"
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Control"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly giveControlBack: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "answer": null,
+                     *       "holder": {
+                     *         "ends_at": "2026-03-01T18:05:02.300Z",
+                     *         "person": {
+                     *           "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *           "name": "Anna",
+                     *           "role": "owner"
+                     *         },
+                     *         "since": "2026-03-01T18:03:41.700Z"
+                     *       },
+                     *       "request": {
+                     *         "asked_at": "2026-03-01T18:04:05.120Z",
+                     *         "ends_at": "2026-03-01T18:04:35.120Z",
+                     *         "id": "7d0f8f0e-3c63-4a0c-9d0b-2a54f2f4f0c1",
+                     *         "person": {
+                     *           "id": "01957a3b-a1c0-7c3d-8e52-4d1b9f7a2c06",
+                     *           "name": "Ben",
+                     *           "role": "technician"
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Control"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly answerControlRequest: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                /**
+                 * @example {
+                 *       "give": true,
+                 *       "request_id": "7d0f8f0e-3c63-4a0c-9d0b-2a54f2f4f0c1"
+                 *     }
+                 */
+                readonly "application/json": components["schemas"]["ControlReply"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "answer": null,
+                     *       "holder": {
+                     *         "ends_at": "2026-03-01T18:05:02.300Z",
+                     *         "person": {
+                     *           "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *           "name": "Anna",
+                     *           "role": "owner"
+                     *         },
+                     *         "since": "2026-03-01T18:03:41.700Z"
+                     *       },
+                     *       "request": {
+                     *         "asked_at": "2026-03-01T18:04:05.120Z",
+                     *         "ends_at": "2026-03-01T18:04:35.120Z",
+                     *         "id": "7d0f8f0e-3c63-4a0c-9d0b-2a54f2f4f0c1",
+                     *         "person": {
+                     *           "id": "01957a3b-a1c0-7c3d-8e52-4d1b9f7a2c06",
+                     *           "name": "Ben",
+                     *           "role": "technician"
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Control"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly askForControl: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "answer": null,
+                     *       "holder": {
+                     *         "ends_at": "2026-03-01T18:05:02.300Z",
+                     *         "person": {
+                     *           "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *           "name": "Anna",
+                     *           "role": "owner"
+                     *         },
+                     *         "since": "2026-03-01T18:03:41.700Z"
+                     *       },
+                     *       "request": {
+                     *         "asked_at": "2026-03-01T18:04:05.120Z",
+                     *         "ends_at": "2026-03-01T18:04:35.120Z",
+                     *         "id": "7d0f8f0e-3c63-4a0c-9d0b-2a54f2f4f0c1",
+                     *         "person": {
+                     *           "id": "01957a3b-a1c0-7c3d-8e52-4d1b9f7a2c06",
+                     *           "name": "Ben",
+                     *           "role": "technician"
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Control"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly withdrawControlRequest: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "answer": null,
+                     *       "holder": {
+                     *         "ends_at": "2026-03-01T18:05:02.300Z",
+                     *         "person": {
+                     *           "id": "01957a10-2b4c-7e55-9a31-6f0d2c8e4b17",
+                     *           "name": "Anna",
+                     *           "role": "owner"
+                     *         },
+                     *         "since": "2026-03-01T18:03:41.700Z"
+                     *       },
+                     *       "request": {
+                     *         "asked_at": "2026-03-01T18:04:05.120Z",
+                     *         "ends_at": "2026-03-01T18:04:35.120Z",
+                     *         "id": "7d0f8f0e-3c63-4a0c-9d0b-2a54f2f4f0c1",
+                     *         "person": {
+                     *           "id": "01957a3b-a1c0-7c3d-8e52-4d1b9f7a2c06",
+                     *           "name": "Ben",
+                     *           "role": "technician"
+                     *         }
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Control"];
                 };
             };
             readonly 401: components["responses"]["Problem401"];

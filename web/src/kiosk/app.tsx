@@ -1,3 +1,4 @@
+import { ControlQuestion } from "@/control/notices";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { GuideDialog } from "@/parts/guide";
 import { LinkState } from "@/parts/header";
@@ -23,6 +24,7 @@ export function Kiosk() {
         <StationCard />
       </main>
       <StopBar />
+      <ControlQuestion />
       <GuideDialog />
       <QuestionDialog />
       <ChoiceDialog />

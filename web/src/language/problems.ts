@@ -11,7 +11,8 @@ import type { Language } from "./language";
 /** What a family may get to see; what only programs can do wrong stays in English. */
 export const PROBLEM_CODES = [
   "internal", "error", "invalid_request", "not_simulated", "control", "control_busy",
-  "control_lost", "robot_offline", "robot_not_ready", "stopped", "telemetry_stale",
+  "control_lost", "control_held", "not_in_control", "nobody_asks", "control_request_pending",
+  "robot_offline", "robot_not_ready", "stopped", "telemetry_stale",
   "release_refused", "emergency_stopped", "robot_fault", "fault_remains", "slide_stalled",
   "following_error", "motion_refused", "lateral_motion_forbidden", "out_of_reach",
   "actuator_overload", "force_limit", "force_above_band", "force_below_band", "under_load",

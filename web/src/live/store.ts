@@ -11,17 +11,18 @@ const DEFAULT_STALE_AFTER_MS = 1000;
 /** A short interruption is not worth a headline. */
 const UNREACHABLE_AFTER_MS = 2000;
 
-/** Puts the changed sections over the old ones; an absent or null section did not change. */
+/** Puts the changed sections over the old ones; absent ones did not change, null is none any more. */
 export function merge(live: Live, changes: DeltaMessage["changes"]): Live {
   return {
     robot: changes.robot ?? live.robot,
-    job: changes.job ?? live.job,
+    job: changes.job === undefined ? live.job : changes.job,
     station: changes.station ?? live.station,
     service: changes.service ?? live.service,
     twin: changes.twin ?? live.twin ?? {},
-    guidance: changes.guidance ?? live.guidance ?? null,
+    guidance: (changes.guidance === undefined ? live.guidance : changes.guidance) ?? null,
     queue: changes.queue ?? live.queue ?? {},
     calibration: changes.calibration ?? live.calibration ?? {},
+    control: changes.control ?? live.control ?? {},
   };
 }
 

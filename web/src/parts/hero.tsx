@@ -1,5 +1,6 @@
 import { may } from "@/access/session";
 import { say } from "@/access/words";
+import { otherHolder } from "@/control/state";
 import { told } from "@/language/problems";
 import { store } from "@/live/page";
 import { pending, press, trouble } from "@/robot/actions";
@@ -37,8 +38,12 @@ export function Hero({ without }: { without?: ActionKind }) {
   );
 }
 
+/** A stop can be released by everybody; all else is for whoever is in control. */
+const isOpen = (kind: ActionKind): boolean =>
+  !pending.value && canAct.value && (kind === "reset" || otherHolder.value === null);
+
 function ActionButtons({ action }: { action: Action }) {
-  const disabled = pending.value || !canAct.value;
+  const disabled = !isOpen(action.kind);
   const quiet = description.value.tone === "busy";
   const job = store.live.value?.job;
   const failed = job?.state === "failed" && job.id !== dismissedJobId.value ? job : null;
@@ -80,7 +85,7 @@ function OtherButtons({ others }: { others: readonly Action[] }) {
           key={kind}
           type="button"
           class="button text"
-          disabled={pending.value || !canAct.value}
+          disabled={!isOpen(kind)}
           onClick={() => press(kind)}
         >
           {label}

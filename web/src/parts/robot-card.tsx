@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import type { Robot } from "@/api/wire";
+import { GiveBack } from "@/control/notices";
+import { otherHolder, whoControls } from "@/control/state";
 import { formatForce, formatNumber, formatPoint } from "@/format";
 import { store } from "@/live/page";
 import { command, pending, pressStop } from "@/robot/actions";
@@ -30,7 +31,7 @@ function RobotFigures() {
   if (live === null) return <p class="soft">{words.state.connecting.detail}</p>;
   const { robot, service } = live;
   const say = words.robot;
-  const disabled = pending.value || !canAct.value;
+  const disabled = pending.value || !canAct.value || otherHolder.value !== null;
   const { measured, socket } = robot;
   return (
     <>
@@ -47,7 +48,7 @@ function RobotFigures() {
         <Row label={say.socket}>
           {socket === null ? say.unknown : `± ${formatNumber(socket.lateral_sigma_mm, 2)} mm`}
         </Row>
-        <Row label={say.control}>{holderOf(robot)}</Row>
+        <Row label={say.control}>{whoControls(live)}</Row>
         <Row label={say.driver}>{robot.driver}</Row>
         {service.simulated_parts.length > 0 && (
           <Row label={say.simulated}>
@@ -74,6 +75,7 @@ function RobotFigures() {
           {say.home}
         </button>
       </div>
+      <GiveBack />
       <a class="button technician-link" href="/technician">
         {say.technician}
       </a>
@@ -86,12 +88,6 @@ function RobotFigures() {
       </button>
     </>
   );
-}
-
-/** Who may move the robot now; everybody else has to wait, but may stop it. */
-function holderOf({ control }: Robot): string {
-  if (control === null) return words.robot.nobody;
-  return control.kind === "job" ? words.robot.byJob : control.name;
 }
 
 function Row({ label, children }: { label: string; children: ComponentChildren }) {

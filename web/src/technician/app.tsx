@@ -1,4 +1,5 @@
 import { CalibrationPanel } from "@/calibration/opening";
+import { ControlNotice, ControlQuestion } from "@/control/notices";
 import { QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
 import { CameraPanel } from "./camera/panel";
@@ -23,6 +24,7 @@ export function Technician() {
         <h1 class="unseen">{say.title}</h1>
         <div class="column">
           <UpdatedLine />
+          <ControlNotice />
           <RobotBox />
           <Values />
         </div>
@@ -40,6 +42,7 @@ export function Technician() {
         </div>
       </main>
       <Stops />
+      <ControlQuestion />
       <QuestionDialog />
     </>
   );

@@ -1,3 +1,5 @@
+import { GiveBack } from "@/control/notices";
+import { otherHolder, whoControls } from "@/control/state";
 import { store } from "@/live/page";
 import { command, pending, press, trouble } from "@/robot/actions";
 import { canAct, description } from "@/robot/view";
@@ -7,9 +9,11 @@ import { say } from "./words";
 
 /** What the robot is doing, who has control, and its switches. */
 export function RobotBox() {
-  const robot = store.live.value?.robot;
+  const live = store.live.value;
+  const robot = live?.robot;
   const { headline, detail, remedy, tone, action } = description.value;
-  const disabled = pending.value || !canAct.value || robot === undefined;
+  const idle = pending.value || !canAct.value || robot === undefined;
+  const disabled = idle || otherHolder.value !== null;
   const latched = action?.kind === "reset" || action?.kind === "confirm_plug";
   const found = trouble.value;
   return (
@@ -29,7 +33,7 @@ export function RobotBox() {
         </div>
         <div>
           <dt>{say.robot.control}</dt>
-          <dd>{robot?.control?.name ?? say.robot.nobody}</dd>
+          <dd>{live === null ? words.robot.unknown : whoControls(live)}</dd>
         </div>
       </dl>
       <div class="switch">
@@ -50,8 +54,9 @@ export function RobotBox() {
           {say.robot.find}
         </button>
       </div>
+      <GiveBack />
       {latched && (
-        <button type="button" class="button big primary" disabled={disabled} onClick={() => press(action.kind)}>
+        <button type="button" class="button big primary" disabled={idle} onClick={() => press(action.kind)}>
           {action.label}
         </button>
       )}

@@ -3,8 +3,10 @@ import { computed, signal } from "@preact/signals";
 import { may } from "@/access/session";
 import type { Trouble } from "@/api/client";
 import type { Problem } from "@/api/wire";
+import { otherHolder } from "@/control/state";
 import { channel, store } from "@/live/page";
 import { canAct } from "@/robot/view";
+import { words } from "@/words";
 import { say } from "../words";
 import type { Frame, Way } from "./axes";
 import { DeadMan } from "./dead-man";
@@ -35,6 +37,7 @@ export const hindrance = computed((): string | null => {
   const robot = store.live.value?.robot;
   if (!may("service")) return say.jog.notAllowed;
   if (robot === undefined || !canAct.value) return say.jog.notLive;
+  if (otherHolder.value !== null) return say.jog.controlled(otherHolder.value.person.name);
   const mine = deadMan.held.value !== null || stepping.value;
   switch (robot.mode) {
     case "ready":
@@ -46,7 +49,8 @@ export const hindrance = computed((): string | null => {
       return say.jog.not[robot.mode];
   }
   if (robot.control !== null && robot.control.kind !== "jog") {
-    return say.jog.controlled(robot.control.name);
+    const doing = words.control.doing[robot.control.kind];
+    return say.jog.controlled(doing.charAt(0).toUpperCase() + doing.slice(1));
   }
   return null;
 });

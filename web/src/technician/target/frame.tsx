@@ -1,5 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { hearStopKeys } from "@/parts/stop-key";
 import { sightIn } from "./sight";
 import type { Sight } from "./sight";
 import { say } from "./words";
@@ -22,7 +23,13 @@ export function TwinFrame({ onPick }: { onPick: (sight: Sight) => void }) {
   return (
     <div class="view" data-open="true">
       <p class="view-note">{say.loading}</p>
-      <iframe ref={frame} src="/twin/?pick" title={say.frame} data-behind={behind.value} />
+      <iframe
+        ref={frame}
+        src="/twin/?pick"
+        title={say.frame}
+        data-behind={behind.value}
+        onLoad={(event) => hearStopKeys(event.currentTarget)}
+      />
       {behind.value && (
         <p class="view-warning" role="status">
           {say.behind}

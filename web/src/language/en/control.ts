@@ -1,0 +1,26 @@
+/** Who is in control of the robot, and what people say to each other about it. */
+export const control = {
+  person: (name: string, role: string): string => `${name} (${role.toLowerCase()})`,
+  asks: (who: string): string => `${who} asks for control`,
+  asksDetail: "What you move by hand stops when you give it. A running job goes on.",
+  keptIn: (seconds: number): string => `Without an answer you keep it: ${String(seconds)} s.`,
+  give: "Give control",
+  keep: "Keep control",
+  held: (who: string): string => `${who} is in control`,
+  heldDetail: "You can watch, and stop the robot at any time.",
+  rival: (who: string): string => `${who} has asked for it.`,
+  ask: "Ask for control",
+  waiting: (who: string): string => `You have asked ${who} for control`,
+  refusedIn: (seconds: number): string => `Without an answer it stays as it is: ${String(seconds)} s.`,
+  withdraw: "Ask no more",
+  answers: {
+    given: (who: string): string => `${who} has given you control`,
+    kept: (who: string): string => `${who} keeps control`,
+    unanswered: (who: string): string => `${who} has not answered and keeps control`,
+    withdrawn: (who: string): string => `${who} keeps control`,
+    ended: (who: string): string => `${who} is done: you are in control`,
+  },
+  you: "you",
+  doing: { job: "the running job", homing: "finding its position", calibration: "a calibration" },
+  back: "Give control back",
+};
