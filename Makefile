@@ -120,14 +120,10 @@ check-web: web/node_modules/.package-lock.json
 	@echo "-- types of the web pages"
 	@cd web && npm run --silent check
 
-# Browsers, servers on real sockets and the board in its CPU simulator live by the wall clock and
-# get the machine to themselves. The others live in virtual time: two at once disturb nobody.
-ALONE = tests/browser tests/campaign tests/drivers/arduino tests/drivers/camera \
-	tests/drivers/station tests/rig \
-	tests/server/live tests/server/test_serving.py tests/server/test_timing.py \
-	tests/server/twin tests/server/api/docs/test_live_server.py \
-	tests/server/access/test_at_the_machine.py tests/server/access/test_logs.py tests/server/tls \
-	tests/server/test_connections.py
+# Promises in seconds of the wall clock, and a board in real time: they get the machine to
+# themselves. All others live in virtual time, or have patience: two at once disturb nobody.
+ALONE = tests/rig/device tests/drivers/camera tests/server/test_serving.py \
+	tests/server/test_timing.py tests/server/test_connections.py
 
 test-together:
 	@echo "-- tests, two at a time"

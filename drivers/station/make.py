@@ -9,7 +9,6 @@ from drivers.station.goe import GoeStation
 from drivers.station.http import HttpStation
 from drivers.station.managed import ManagedStation
 from drivers.station.memory import StationMemory
-from drivers.station.ocpp16 import OcppStation
 from drivers.station.openevse import OpenevseStation
 from drivers.station.protocol import StationDriver
 from drivers.station.settings import StationGroups
@@ -45,6 +44,9 @@ def make_http(groups: StationGroups) -> StationDriver:
 
 def make_ocpp(groups: StationGroups, memory: StationMemory) -> StationDriver:
     """A station that connects by OCPP 1.6-J."""
+    # imported late: its library costs every start a fifth of a second, and few speak OCPP
+    from drivers.station.ocpp16 import OcppStation  # noqa: PLC0415
+
     return OcppStation(_need(groups.ocpp, "ocpp"), memory)
 
 

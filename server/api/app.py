@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager
 from pathlib import Path
 
-from fastapi import APIRouter, Depends, FastAPI, WebSocket
+from fastapi import Depends, FastAPI, WebSocket
 
 from server.access.operations import twin_messages
 from server.api import root_certificate
@@ -75,7 +75,6 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
-    api = APIRouter(prefix=PREFIX, responses=ANY_PROBLEM, dependencies=[Depends(commanding)])
     for module in (
         health,
         robot,
@@ -101,8 +100,12 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         access,
         people,
     ):
-        api.include_router(module.router)
-    app.include_router(api)
+        app.include_router(
+            module.router,
+            prefix=PREFIX,
+            responses=ANY_PROBLEM,
+            dependencies=[Depends(commanding)],
+        )
     if twin is not None:
         app.include_router(twin_router(twin, allowed_client_messages=_twin_messages))
     app.include_router(root_certificate.router)

@@ -14,13 +14,13 @@ from playwright.sync_api import TimeoutError as NotYetError
 
 from server.config.settings import Settings
 from server.jobs.approach import parking_joints
+from tests.browser.axe import violations_by_day_and_night
 from tests.browser.chromium import PHONE, phone_page
 from tests.browser.guidance_scenes import SCENES
 from tests.browser.scenes import SCENES as LIVE
 from tests.browser.stage import Stage
 from tests.support.process import ServerProcess, serving
 
-AXE = Path(__file__).resolve().parents[2] / "web/node_modules/axe-core/axe.min.js"
 MIN_TARGET_PX = 44
 PATIENCE_MS = 90_000
 CARD = ".guidance"
@@ -123,17 +123,15 @@ def test_the_page_s_own_pedals_drive_the_simulated_car(phone: Page, server: Serv
         assert client.get("simulation/car").json()["z_mm"] > 800
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_every_state_is_accessible_and_to_be_read_at_a_glance(
-    phone: Page, stage: Stage, address: str, scheme: str
+    phone: Page, stage: Stage, address: str
 ) -> None:
-    phone.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
     for name, guidance in SCENES.items():
         stage.live = LIVE["ready"].model_copy(update={"guidance": guidance})
         phone.goto(address)
         order = phone.locator(f"{CARD} .order")
         order.wait_for()
-        assert _violations(phone) == [], name
+        assert violations_by_day_and_night(phone) == [], name
         for button in phone.locator(f"{CARD} button").all():
             box = button.bounding_box()
             assert box is not None
@@ -146,12 +144,3 @@ def test_every_state_is_accessible_and_to_be_read_at_a_glance(
             drawing = phone.locator(f"{CARD} .top-view").bounding_box()
             assert drawing is not None
             assert drawing["y"] + drawing["height"] <= PHONE["height"], "no scrolling while driving"
-
-
-def _violations(page: Page) -> list[str]:
-    """Rules of axe that the page breaks, with the elements."""
-    if not AXE.exists():
-        pytest.skip("needs axe-core: run `npm ci` in web/")
-    page.evaluate(AXE.read_text(encoding="utf-8"))
-    found: list[dict[str, Any]] = page.evaluate("() => axe.run().then((r) => r.violations)")
-    return [f"{each['id']}: {[node['html'] for node in each['nodes']]}" for each in found]

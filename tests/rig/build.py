@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import shutil
 import subprocess
 from collections.abc import Callable, Mapping
@@ -48,11 +49,15 @@ def missing_packages() -> list[str]:
 def build_programs() -> Programs:
     """Build what is not up to date.
 
+    Whoever comes while another process builds waits for it.
+
     Raises:
         BuildError: it cannot be built.
     """
-    _make(FIRMWARE, "build/firmware.elf")
-    _make(SIMULATOR, "all")
+    with (SIMULATOR / "Makefile").open() as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        _make(FIRMWARE, "build/firmware.elf")
+        _make(SIMULATOR, "all")
     return Programs(FIRMWARE / "build" / "firmware.elf", SIMULATOR / "build" / "auriga")
 
 

@@ -16,10 +16,10 @@ from drivers.simulator.truth import GroundTruth
 from drivers.station import StationSnapshot
 from server.composition import running
 from server.config.settings import Settings
+from server.jobs.approach import parking_joints
 from server.jobs.model import JobPhase, JobType
 from server.schema.jobs import Job, JobEvent, JobRequest
 from server.services import Services
-from server.simulation import park_first
 from server.timing import VirtualTimeLoop
 
 T = TypeVar("T")
@@ -132,22 +132,42 @@ def on_scene(
         scenario: Gets the scene.
         seed: Of the garage.
         folder: Keeps data there instead of in memory.
-        parked: Switch the robot on, home and park it first.
+        parked: Begin with a robot that is homed, stands at its parking place and is switched on.
         settings: Instead of the defaults; the seed is put in.
     """
     chosen = settings or Settings()
     simulation = chosen.simulation.model_copy(update={"seed": seed})
     chosen = chosen.model_copy(update={"simulation": simulation})
+    if parked:
+        chosen = _standing_parked(chosen)
 
     async def main() -> T:
         async with running(chosen, folder=folder) as services:
             if parked:
-                await park_first(services)
+                await _switch_on(services)
             async with asyncio.timeout(LONG_S):
                 return await scenario(Scene(services))
 
     with asyncio.Runner(loop_factory=VirtualTimeLoop) as runner:
         return runner.run(main())
+
+
+def _standing_parked(settings: Settings) -> Settings:
+    """The robot was homed and parked by somebody else: hundreds of tests need not wait for it."""
+    joints = parking_joints(settings.geometry, settings.park)
+    board = settings.simulation.parameters.board.model_copy(
+        update={"start_homed": True, "start_joints": joints}
+    )
+    parameters = settings.simulation.parameters.model_copy(update={"board": board})
+    simulation = settings.simulation.model_copy(update={"parameters": parameters})
+    return settings.model_copy(update={"simulation": simulation})
+
+
+async def _switch_on(services: Services) -> None:
+    supervisor = services.supervisor
+    async with supervisor.control("homing", "Start of the scene") as lease:
+        await supervisor.enable(lease)
+        await supervisor.plug.is_parked()
 
 
 def shift_car(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -45,6 +46,7 @@ class CoarseGrid:
         pixels = np.stack(np.meshgrid(u, v), axis=-1)
         self.u_px, self.v_px = u, v
         self.rays = _rays(optics, pixels.reshape(-1, 2)).reshape(pixels.shape)
+        self.rays.flags.writeable = False
         """Normalised coordinates (x, y) of the nodes, shape (m, n, 2)."""
 
     def _places(self, length: int) -> NDArray[np.float64]:
@@ -73,6 +75,12 @@ class CoarseGrid:
             down : down + part.bottom - part.top, across : across + part.right - part.left
         ]
         return np.asarray(large[inside], dtype=np.float32)
+
+
+@lru_cache(maxsize=2)
+def coarse_grid(optics: CameraModel, stride_px: int) -> CoarseGrid:
+    """A grid, shared by all who need the same one; a camera that opens again finds its rays."""
+    return CoarseGrid(optics, stride_px)
 
 
 def _rays(optics: CameraModel, pixels: NDArray[np.float64]) -> NDArray[np.float64]:

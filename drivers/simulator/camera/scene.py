@@ -10,7 +10,7 @@ import numpy as np
 
 from drivers.camera import CameraModel
 from drivers.simulator.camera.car_plane import CarPaint, CarPlane, car_plane
-from drivers.simulator.camera.coarse_grid import CoarseGrid, Field
+from drivers.simulator.camera.coarse_grid import CoarseGrid, Field, coarse_grid
 from drivers.simulator.camera.conditions import FLAWLESS, Conditions
 from drivers.simulator.camera.imaging import ImagingParameters
 from drivers.simulator.camera.label_condition import LabelCondition
@@ -81,8 +81,8 @@ class SceneRenderer:
         self._optics = optics
         self._imaging = imaging
         self._conditions = conditions
-        self._rays = CoarseGrid(optics, STRIDE_PX)
-        self._grid = CoarseGrid(optics, COARSE_PX)
+        self._rays = coarse_grid(optics, STRIDE_PX)
+        self._grid = coarse_grid(optics, COARSE_PX)
         self._lighting = Lighting(imaging, conditions.lamps, optics, self._grid)
         self._label = LabelPainter(imaging, conditions, seed)
         self._paint = CarPaint()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +35,7 @@ _SCREWS = ((-52.0, -52.0), (52.0, -52.0), (-52.0, 52.0), (52.0, 52.0))
 Layer = NDArray[np.uint8]
 
 
+@cache
 def socket_texture() -> PlaneTexture:
     """The recess of the charging flap with the inlet in its middle, lit from above.
 
@@ -63,7 +66,10 @@ def socket_texture() -> PlaneTexture:
         _disc(grey, x, y + 0.4, diameter / 4, 15)  # the metal deep inside
     lit = _shrunk(grey) * _relief(_shrunk(height)) * _shadow(_shrunk(alpha))
     cover = _shrunk(alpha)
-    return PlaneTexture(np.asarray(np.clip(lit, 0.004, 0.9) * cover, np.float32), cover, TEXEL_MM)
+    reflectance = np.asarray(np.clip(lit, 0.004, 0.9) * cover, np.float32)
+    for shared in (reflectance, cover):
+        shared.flags.writeable = False
+    return PlaneTexture(reflectance, cover, TEXEL_MM)
 
 
 def _relief(height: NDArray[np.float32]) -> NDArray[np.float32]:

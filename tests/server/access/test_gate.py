@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 from collections.abc import AsyncIterator, Awaitable, Callable
 from datetime import timedelta
 
@@ -12,10 +11,9 @@ import pytest
 
 from server.access import Role
 from server.access.limits import ATTEMPTS, Attempts
-from server.api.app import create_app
 from server.api.gate.body import MAX_BYTES
 from server.api.gate.caller import COOKIE
-from tests.support.api import problem
+from tests.support.api import application, problem
 from tests.support.garage import Scene, on_scene
 from tests.support.pairing import new_device
 
@@ -31,15 +29,12 @@ def at_the_gate(
     """Run a scenario with a browser at some address, paired or not."""
 
     async def with_client(scene: Scene) -> None:
-        app = create_app(lambda: contextlib.nullcontext(scene.services))
+        app = application(scene.services)
         cookies = {COOKIE: await new_device(scene.services.access, role)} if role else {}
         transport = httpx.ASGITransport(app, raise_app_exceptions=False, client=(address, 50_000))
-        async with (
-            app.router.lifespan_context(app),
-            httpx.AsyncClient(
-                transport=transport, base_url=f"http://{host}/api/v1/", cookies=cookies
-            ) as client,
-        ):
+        async with httpx.AsyncClient(
+            transport=transport, base_url=f"http://{host}/api/v1/", cookies=cookies
+        ) as client:
             await scenario(scene, client)
 
     on_scene(with_client, parked=False)
