@@ -136,7 +136,10 @@ class FitFailedError(PoseRejectedError):
 
 
 class AmbiguousTiltError(PoseRejectedError):
-    """Two opposite tilts explain the picture equally well: the label is too small or too far."""
+    """Two opposite tilts explain the picture equally well, or it tells too little of the tilt.
+
+    The label is too small or too far.
+    """
 
     code = "tilt_ambiguous"
     title = "The label is too far away to measure its tilt"

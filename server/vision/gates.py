@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from server.vision.errors import (
+    AmbiguousTiltError,
     EdgesDisagreeError,
     EdgesDoNotFitError,
     ImplausibleDistanceError,
@@ -35,6 +36,8 @@ class Gates:
         bow_modules: Largest mean distance in any part of the code, which tells a strangely
             bent or pasted-over label from a noisy picture, in modules ...
         bow_rms: ... or times the root mean square: noise makes some part look bent, too.
+        turn_sigma_deg: Largest standard deviation of the label's turn about any axis: the socket is
+            a hand's breadth beside the label, where half a degree is a millimetre.
         inlier_share: Smallest share of edges that agree.
         bit_agreement: Smallest share of modules that look as the code says.
         nearest_mm: Smallest distance along the optical axis.
@@ -55,6 +58,7 @@ class Gates:
     bend_modules: float = 0.12
     bow_modules: float = 0.06
     bow_rms: float = 1.5
+    turn_sigma_deg: float = 0.5
     inlier_share: float = 0.82
     bit_agreement: float = 0.85
     nearest_mm: float = 40.0
@@ -108,7 +112,8 @@ class Gates:
             label_size_mm: Outer side of the code without its quiet zone.
 
         Raises:
-            EdgesDoNotFitError: the residuals are too large.
+            EdgesDoNotFitError: the residuals are too large, or how the label is bent is in doubt.
+            AmbiguousTiltError: the picture tells too little of the tilt.
             EdgesDisagreeError: too few edges agree with the fit.
             ModulesDisagreeError: the modules look different from the code.
         """
@@ -133,6 +138,7 @@ class Gates:
                 f"has it; at most {self.bend_modules * module_px:.2f} px are allowed."
             )
             raise EdgesDoNotFitError(detail, bend_px=round(fit.bend_px, 3))
+        self._check_turn(fit)
         if fit.inlier_share < self.inlier_share:
             detail = f"Only {fit.inlier_share:.0%} of the edges agree with the fit."
             raise EdgesDisagreeError(detail, inlier_share=round(fit.inlier_share, 3))
@@ -141,6 +147,21 @@ class Gates:
         if agreement < self.bit_agreement:
             detail = f"Only {agreement:.0%} of the modules look as the code says."
             raise ModulesDisagreeError(detail, bit_agreement=round(agreement, 3))
+
+    def _check_turn(self, fit: EdgeFit) -> None:
+        variance = float(np.linalg.eigvalsh(fit.covariance[:3, :3])[-1])
+        sigma_deg = math.degrees(math.sqrt(variance))
+        if sigma_deg <= self.turn_sigma_deg:
+            return
+        rest = (
+            f"the tilt may be {sigma_deg:.1f} degrees off; "
+            f"at most {self.turn_sigma_deg:.1f} are allowed."
+        )
+        if fit.bend_px > 0:
+            detail = f"The label is bent, and which part of it is flat is not sure: {rest}"
+            raise EdgesDoNotFitError(detail, turn_sigma_deg=round(sigma_deg, 2))
+        detail = f"The picture tells too little of the label's tilt: {rest}"
+        raise AmbiguousTiltError(detail, turn_sigma_deg=round(sigma_deg, 2))
 
     def check_jump(self, found: Array, predicted: Array) -> None:
         """Let a pose pass that is near its prediction, both shape (4, 4).

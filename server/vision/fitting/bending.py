@@ -23,9 +23,9 @@ from server.vision.projection import Array
 EDGES_FOR_BEND = 300
 """With fewer edges a bend cannot be told from uneven light."""
 
-SIGNIFICANT = 14.0
-"""Of chi^2 with three or four degrees of freedom: a flat label is taken for a bent one in one
-picture of a hundred, which costs it some certainty and nothing else."""
+POSSIBLE = 9.0
+"""Of chi^2 with three or four degrees of freedom: below it no bend is worth a closer look, which
+one flat picture in ten is given."""
 
 _BOW = 3  # unknowns
 _CREASES = (-0.5, 0.0, 0.5, 1.0)  # along a diagonal: 0 is the code's middle, 2 its corner
@@ -38,10 +38,10 @@ _EDGES_OF_A_PART = 8
 _MOST_BEND_PX = 2.0
 
 
-def significant_bends(
+def possible_bends(
     solved: RobustStep, measured: EdgeOffsets, edges: CodeEdges, T_camera_label: Array
 ) -> list[Array]:
-    """The kinds of bend that the residuals of a flat fit show.
+    """The kinds of bend there are, where the residuals of a flat fit show any of them.
 
     Rao's score test in its robust form: the weighted residuals are correlated with what of each
     bend neither pose nor spread explain, relative to how much they scatter.
@@ -53,8 +53,9 @@ def significant_bends(
         T_camera_label: Pose, shape (4, 4) [mm].
 
     Returns:
-        Of each kind the derivative of the places along the normals by its unknowns, shape (k, n)
-        [px/mm]; nothing where the label looks flat.
+        Of every kind the derivative of the places along the normals by its unknowns, shape (k, n)
+        [px/mm]: where one is significant, another may explain the picture about as well without
+        being so; nothing where the label looks flat.
     """
     if len(edges.points_mm) < EDGES_FOR_BEND:
         return []
@@ -78,8 +79,7 @@ def significant_bends(
     each = totals[_BOW:].reshape(len(corners), -1, 1)
     solved_each = np.linalg.solve(np.stack([scatter[kind, kind] for kind in corners]), each)
     shown += (each * solved_each).sum(axis=(1, 2)).tolist()
-    kinds = (bow, *corners)
-    return [bends[kind] for kind, sign in zip(kinds, shown, strict=True) if sign > SIGNIFICANT]
+    return [bends[kind] for kind in (bow, *corners)] if max(shown) > POSSIBLE else []
 
 
 @lru_cache(maxsize=8)

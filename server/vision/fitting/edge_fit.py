@@ -198,9 +198,12 @@ def _result(solved: RobustStep, fine: FineFit, edges: CodeEdges) -> EdgeFit:
     bow_px = coherent_rest_px(solved, edges)
     if fine.before_cover is not None:  # what comes off or is pasted over looks like a cover, too
         bow_px = max(bow_px, coherent_rest_px(fine.before_cover, edges))
+    covariance = fit_covariance(solved, edges)
+    if fine.bend_doubt is not None:
+        covariance += fine.bend_doubt
     return EdgeFit(
         T_camera_label=fine.pose,
-        covariance=fit_covariance(solved, edges),
+        covariance=covariance,
         rms_px=solved.rms_px,
         inlier_share=fine.inlier_share(solved),
         edge_count=edge_count,

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.vision.fitting.bending import significant_bends
+from server.vision.fitting.bend_choice import BendChoice, chosen_bend
+from server.vision.fitting.bending import possible_bends
 from server.vision.fitting.blurred_code import BlurredCode
 from server.vision.fitting.code_edges import CodeEdges
 from server.vision.fitting.covered_edges import AGREES, covered_edges
@@ -19,12 +20,13 @@ from server.vision.fitting.robust_step import RobustStep, robust_step
 from server.vision.projection import Array, perturbed
 
 BLUR_LOOKS = 2
-"""So often the blur of a blurred picture is measured, each time at a better pose."""
+"""So often the blur of a blurred picture is measured at most: again only where the pose was still
+off by more than a short step when it was measured, for its kernel is symmetric, so that a small
+shift changes it by the square of that shift only."""
 
 _FLOWING_MODULES = 0.18
 """Blur (standard deviation across the edges of one direction) from which on neighbours count."""
 
-_MOST_REST = 25.0  # of an edge, in squared standard deviations
 _SHORT_MODULES, _LEAST_SHORT_PX, _MOST_SHORT_PX = 0.01, 0.05, 0.1
 """The step after one so short is a tenth to a thirtieth of it, and would change nothing."""
 
@@ -73,7 +75,7 @@ class FineFit:
         self._light = light_field(few, measured)
         self._levels = None if self._light is None else self._light.levels(edges)
         self._blurred: BlurredCode | None = None
-        self._bend: Array | None = None
+        self._bend: BendChoice | None = None
         self._covered: NDArray[np.bool_] | None = None
         self._agreed_beside_cover = 0
         self.before_cover: RobustStep | None = None
@@ -83,6 +85,12 @@ class FineFit:
         """Largest shift of an edge because the label is not flat, with a cover or without."""
         flows = _neighbours_flow_in(measured, few.upright, self._module_px)
         self._looks = BLUR_LOOKS if flows and self._light is not None else 0
+        self._moved_since_look = True
+
+    @property
+    def bend_doubt(self) -> Array | None:
+        """Covariance of (omega, tau) for not knowing how the label is bent; None: it is flat."""
+        return None if self._bend is None else self._bend.doubt
 
     @property
     def spread_px(self) -> float:
@@ -128,8 +136,9 @@ class FineFit:
         if self._moving:
             others.append(self.measured.by_row_way)
         lasting = 6 + sum(len(rows) for rows in others)
-        if self._bend is not None:
-            others.append(self._bend)  # always told anew, for the profiles stay where they are
+        bent = None if self._bend is None else self._bend.by_heights
+        if bent is not None:
+            others.append(bent)  # always told anew, for the profiles stay where they are
         solved = robust_step(self.measured, spread_px, np.concatenate(others), self._edges.upright)
         if solved is None:
             return None
@@ -139,20 +148,21 @@ class FineFit:
             self._row_way = self._row_way + solved.step[lasting - 2 : lasting]
         bend = solved.design[:, lasting:] @ solved.step[lasting:]
         self.bend_px = float(np.max(np.abs(bend), initial=self._most_bend_px))
-        return solved, solved.moved_px(lasting)
+        moved_px = solved.moved_px(lasting)
+        self._moved_since_look |= moved_px > self.short_px
+        return solved, moved_px
 
     def learn(self, solved: RobustStep) -> bool:
         """After a short step: see what the picture holds besides; whether to go on stepping."""
-        if self._looks > 0:
-            self._looks -= 1
+        if self._looks > 0 and self._moved_since_look:
+            self._looks, self._moved_since_look = self._looks - 1, False
             light = light_field(self._edges, self.measured)
             if light is not None:
                 self._measure_blur(light)
                 return True
         if self._bend is None:
-            bends = significant_bends(solved, self.measured, self._edges, self.pose)
-            self._bend = self._best_of(bends) if len(bends) > 1 else next(iter(bends), None)
-            if self._bend is not None:
+            self._bend = self._told_bend(solved)
+            if self._bend is not None and self._bend.by_heights is not None:
                 return True
         if self.before_cover is None:
             covered = covered_edges(self._edges, solved)
@@ -173,21 +183,20 @@ class FineFit:
         if light is not None:
             self._levels = light.levels(self._edges)
 
-    def _best_of(self, bends: list[Array]) -> Array | None:
-        """The bend that leaves the smallest residuals, those of the loose part included."""
-        spread_px = self._spread @ self._basis
-        least, best = np.inf, None
-        scale_px: Array | None = None
-        for bend in bends:
-            others = np.concatenate((self._basis, bend))
-            solved = robust_step(self.measured, spread_px, others, self._edges.upright)
-            if solved is None:
-                continue
-            scale_px = solved.scale_px if scale_px is None else scale_px
-            rest = float(np.sum(np.minimum((solved.residuals / scale_px) ** 2, _MOST_REST)))
-            if rest < least:
-                least, best = rest, bend
-        return best
+    def _told_bend(self, solved: RobustStep) -> BendChoice | None:
+        """Whether and how the label is bent; None where it is plainly flat."""
+        bends = possible_bends(solved, self.measured, self._edges, self.pose)
+        if not bends:
+            return None
+        spread_px, others = self._spread @ self._basis, [self._basis]
+        if self._moving:
+            others.append(self.measured.by_row_way)
+
+        def solve(bend: Array) -> RobustStep | None:
+            columns = np.concatenate((*others, bend))
+            return robust_step(self.measured, spread_px, columns, self._edges.upright)
+
+        return chosen_bend(bends, solved, solve)
 
     def _measure_blur(self, light: LightField) -> None:
         self._levels = light.levels(self._edges)

@@ -9,6 +9,7 @@ neighbours' part be computed and taken away.
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -28,7 +29,7 @@ _REACH_SAMPLES = 5  # of the kernel: one and a quarter modules
 _MOST_EQUATIONS = 4000
 _RIDGE = 1e-4
 _TUKEY = 4.685
-_REWEIGHTINGS = 2
+_REWEIGHTINGS = 4
 
 Samples = NDArray[np.float32]
 
@@ -57,73 +58,86 @@ def blurred_as_seen(
         inverted: The code is white on black.
         row_way: Way of the label per row, as of ``edge_offsets``.
     """
-    white = np.float32(1) - _blackness(edges)
-    side = len(white)
-    per_mm = _SAMPLES / edges.module_mm
-    middle = (side - 1) / 2
-    places = (np.arange(side) - middle) / per_mm
-    x, y = np.meshgrid(places, places)
-    points = np.column_stack((x.ravel(), y.ravel()))
-    pixels = project(camera, T_camera_label, points).pixels
+    known = _known(np.packbits(edges.modules).tobytes(), edges.modules.shape[0])
+    points = known.places * edges.module_mm
+    u_v = project(camera, T_camera_label, points).u_v
     if row_way is not None:
-        pixels += (pixels[:, 1:] - picture.middle_row) * row_way
-    pixels -= picture.left_top_px
-    map_x, map_y = pixels.T.astype(np.float32).reshape(2, side, side)
+        u_v += (u_v[1] - picture.middle_row) * row_way[:, None]
+    map_x, map_y = (u_v - picture.left_top_px[:, None]).astype(np.float32)
     seen = cv2.remap(picture.light, map_x, map_y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    grey = np.asarray(seen, dtype=np.float64).ravel()
     if inverted:
-        seen = 255 - seen
+        grey = 255 - grey
     black, contrast = light.at(points)
-    levelled = (seen - black.reshape(side, side)) / contrast.reshape(side, side)
-    kernel, background = _kernel(white, np.asarray(levelled, dtype=np.float32))
-    blurred = cv2.filter2D(white, -1, kernel, borderType=cv2.BORDER_REPLICATE) + background
-    return BlurredCode(np.asarray(blurred, dtype=np.float32), middle, per_mm)
+    kernel, background = _kernel(known, ((grey - black) / contrast).astype(np.float32))
+    blurred = cv2.filter2D(known.white, -1, kernel, borderType=cv2.BORDER_REPLICATE) + background
+    middle = (len(known.white) - 1) / 2
+    return BlurredCode(np.asarray(blurred, dtype=np.float32), middle, _SAMPLES / edges.module_mm)
 
 
-def _blackness(edges: CodeEdges) -> Samples:
-    """The code with some of its quiet zone, 1 is black, shape (m, m)."""
-    return _sampled(np.packbits(edges.modules).tobytes(), edges.modules.shape[0])
+class _Known(NamedTuple):
+    """What follows from the code alone; a camera sees one label again and again.
+
+    Attributes:
+        white: The code with some of its quiet zone, 0 is black, shape (m, m).
+        places: Where the picture is looked at, in modules from the code's middle, shape (n, 2).
+        rows: What each unknown adds there, shape (k, n): seen = kernel * white + constant.
+        inverse: Of the normal matrix with its ridge, shape (k, k).
+        ridge: What was added to its diagonal.
+    """
+
+    white: Samples
+    places: Array
+    rows: Samples
+    inverse: Array
+    ridge: float
 
 
-@lru_cache(maxsize=8)
-def _sampled(packed: bytes, count: int) -> Samples:
+@lru_cache(maxsize=4)
+def _known(packed: bytes, count: int) -> _Known:
     bits = np.unpackbits(np.frombuffer(packed, dtype=np.uint8), count=count * count)
     framed = np.pad(bits.reshape(count, count), _QUIET_MODULES)
-    return framed.repeat(_SAMPLES, axis=0).repeat(_SAMPLES, axis=1).astype(np.float32)
+    white = 1 - framed.repeat(_SAMPLES, axis=0).repeat(_SAMPLES, axis=1).astype(np.float32)
+    side, reach = len(white), _REACH_SAMPLES
+    inner = side - 2 * reach
+    chosen = np.linspace(0, inner**2 - 1, min(inner**2, _MOST_EQUATIONS)).round().astype(np.intp)
+    row, column = chosen // inner + reach, chosen % inner + reach
+    rows = []
+    for down, right in _half_plane(reach):
+        there = white[row + down, column + right]
+        opposite = white[row - down, column - right]
+        rows.append(there + opposite if (down, right) != (0, 0) else there)
+    rows.append(np.ones_like(rows[0]))
+    exact = np.stack(rows).astype(np.float64)
+    normal = exact @ exact.T
+    ridge = _RIDGE * float(np.trace(normal)) / len(normal)
+    return _Known(
+        white=white,
+        places=(np.column_stack((column, row)) - (side - 1) / 2) / _SAMPLES,
+        rows=exact.astype(np.float32),
+        inverse=np.asarray(np.linalg.inv(normal + ridge * np.eye(len(normal))), dtype=np.float64),
+        ridge=ridge,
+    )
 
 
-def _kernel(white: Samples, seen: Samples) -> tuple[Samples, float]:
-    """The kernel, shape (2 r + 1, 2 r + 1), and the constant that turn the code into the seen."""
+def _kernel(known: _Known, seen: Samples) -> tuple[Samples, float]:
+    """The kernel, shape (2 r + 1, 2 r + 1), and the constant that turn the code into the seen.
+
+    Tukey's weights are never larger than 1, so steps with the matrix of all equations alike go
+    towards the weighted solution, if a little slowly (Huber 1981, 7.8), and the matrix is the
+    code's own.
+    """
     reach = _REACH_SAMPLES
-    rows, wanted = _equations(white, seen)
-    weights = np.ones_like(wanted)
+    solution = known.inverse @ (known.rows @ seen)
     for _ in range(_REWEIGHTINGS):
-        weighted = rows * weights[:, None]
-        normal = weighted.T @ rows
-        normal[np.diag_indices_from(normal)] += _RIDGE * np.trace(normal) / len(normal)
-        solution = np.linalg.solve(normal, weighted.T @ wanted)
-        misses = np.abs(wanted - rows @ solution)
-        scale = 1.4826 * median(misses) + 1e-6
-        weights = (np.clip(1 - (misses / (_TUKEY * scale)) ** 2, 0, 1) ** 2).astype(np.float32)
+        misses = seen - solution.astype(np.float32) @ known.rows
+        scale = 1.4826 * median(np.abs(misses)) + 1e-6
+        weights = np.maximum(1 - (misses / np.float32(_TUKEY * scale)) ** 2, 0) ** 2
+        solution += known.inverse @ (known.rows @ (weights * misses) - known.ridge * solution)
     kernel = np.zeros((2 * reach + 1, 2 * reach + 1), dtype=np.float32)
     for (down, right), value in zip(_half_plane(reach), solution, strict=False):
         kernel[reach + down, reach + right] = kernel[reach - down, reach - right] = value
     return kernel, float(solution[-1])
-
-
-def _equations(white: Samples, seen: Samples) -> tuple[Samples, Samples]:
-    """Left and right sides of seen = kernel * white + constant at evenly spread samples."""
-    reach, side = _REACH_SAMPLES, len(white)
-    inner = side - 2 * reach
-    chosen = np.linspace(0, inner**2 - 1, min(inner**2, _MOST_EQUATIONS)).round().astype(np.intp)
-    place = (chosen // inner + reach) * side + chosen % inner + reach
-    flat = white.ravel()
-    columns = []
-    for down, right in _half_plane(reach):
-        shift = down * side + right
-        column = flat[place + shift]
-        columns.append(column + flat[place - shift] if shift else column)
-    columns.append(np.ones_like(columns[0]))
-    return np.stack(columns, axis=1), seen.ravel()[place]
 
 
 def _half_plane(reach: int) -> list[tuple[int, int]]:

@@ -17,6 +17,7 @@ from typing import TypeVar
 
 import cv2
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from drivers.camera import CameraModel, pi_camera_v2
 from server.vision import LabelPose, combine
@@ -143,6 +144,7 @@ def main() -> None:
     arguments = parser.parse_args()
     frames = QUICK_FRAMES if arguments.quick else arguments.frames
     cv2.setNumThreads(1)
+    threadpool_limits(1, "blas")  # as the server does
     camera = camera_720p()
     bench = Bench(camera, ours=arguments.ours)
     rows: list[str] = []
