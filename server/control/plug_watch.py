@@ -20,17 +20,13 @@ from server.control.errors import (
 )
 from server.control.force_curve import SAMPLES, ForceCurve
 from twin.force_band import ForceBand
+from twin.slide_pace import SlidePace
 
 TOLD_MM = 0.3
 """A set point that went so far within the stall time told the slide to move."""
 
 FOLLOWS = 0.5
 """Share of the set point's way that a slide makes which follows it."""
-
-SLOWEST_MM_S = 1.0
-STEADY_MM_S = 0.5
-"""The band counts only while the slide cruises, over all samples of the median: the force comes
-from the motor's current, and what turns its rotor faster or slower never reaches the plug."""
 
 MOVED_MM = 0.05
 """A slide that went less has not moved: a few counts of its encoder."""
@@ -67,6 +63,7 @@ class PlugWatch:
         self._band = band
         self._recent: deque[RobotState] = deque()
         self._window: deque[RobotState] = deque(maxlen=SAMPLES)
+        self._pace = SlidePace()
 
     def check(self, state: RobotState) -> None:
         """Take in a sample.
@@ -81,10 +78,13 @@ class PlugWatch:
         rho3_mm = state.measured.position.rho3_mm
         if self.began_rho3_mm is None:
             self.began_rho3_mm = rho3_mm
+        commanded = state.commanded
+        speed_mm_s = commanded.velocity.rho3_mm_s
         self._window.append(state)
+        self._pace.take(state.sampled_at_s, commanded.position.rho3_mm, speed_mm_s, rho3_mm)
         point = self.curve.add(rho3_mm - (self._face_rho3_mm or 0.0), state.force_n)
         if point is not None:
-            self._judge_force(*point, moves_in=state.commanded.velocity.rho3_mm_s > 0)
+            self._judge_force(*point, moves_in=speed_mm_s > 0)
         self._judge_slide(state)
 
     def _judge_force(self, depth_mm: float, force_n: float, *, moves_in: bool) -> None:
@@ -98,20 +98,20 @@ class PlugWatch:
                 **facts,
                 limit_n=self._limit_n,
             )
-        if self._band is None or self._face_rho3_mm is None or depth_mm < 0 or not self._cruises():
+        if self._band is None or self._face_rho3_mm is None or depth_mm < 0 or self._stands():
             return
         lower_n, upper_n = self._band.at(depth_mm)
-        too_little, too_much = force_n < lower_n, force_n > upper_n
-        if not (too_little or too_much):
-            return
-        if moves_in == too_much:
+        over, under = force_n > upper_n, force_n < lower_n
+        too_much, too_little = (over, under) if moves_in else (under, over)
+        if too_much and self._pace.shows_too_much:
+            allowed_n = upper_n if over else lower_n
             raise ForceAboveBandError(
                 f"At a depth of {depth_mm:.1f} mm the plug met {abs(force_n):.0f} N; "
-                f"{abs(upper_n if too_much else lower_n):.0f} N are allowed there.",
+                f"{abs(allowed_n):.0f} N are allowed there.",
                 **facts,
-                limit_n=round(abs(upper_n if too_much else lower_n), 1),
+                limit_n=round(abs(allowed_n), 1),
             )
-        if moves_in:
+        if too_little and moves_in and self._pace.shows_too_little:
             raise ForceBelowBandError(
                 f"At a depth of {depth_mm:.1f} mm the plug met only {force_n:.0f} N; "
                 f"a socket gives {lower_n:.0f} N or more there.",
@@ -119,19 +119,16 @@ class PlugWatch:
                 limit_n=round(lower_n, 1),
             )
 
-    def _cruises(self) -> bool:
-        """The set point moves steadily, and the slide is seen to move with it.
+    def _stands(self) -> bool:
+        """The slide is told to move, and is not seen to.
 
-        A slide that stands against a force is the board's business. It knows whether the slide was
+        One that stands against a force is the board's business. It knows whether the slide was
         seen to push itself tight, or whether its encoder may be dead and the position is lost.
         """
-        speeds = [state.commanded.velocity.rho3_mm_s for state in self._window]
         first, last = self._window[0], self._window[-1]
         told_mm = last.commanded.position.rho3_mm - first.commanded.position.rho3_mm
         moved_mm = last.measured.position.rho3_mm - first.measured.position.rho3_mm
-        steady = max(speeds) - min(speeds) < STEADY_MM_S
-        moving = min(abs(speed) for speed in speeds) > SLOWEST_MM_S
-        return steady and moving and abs(moved_mm) >= FOLLOWS * abs(told_mm)
+        return abs(moved_mm) < FOLLOWS * abs(told_mm)
 
     def _judge_slide(self, state: RobotState) -> None:
         lag_mm = abs(state.commanded.position.rho3_mm - state.measured.position.rho3_mm)

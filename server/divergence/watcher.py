@@ -126,8 +126,14 @@ class DivergenceWatcher:
             force_n=state.force_n,
             following=follows and state.homed and state.enabled,
             running=state.board is BoardState.RUN,
-            contact_known=self._supervisor.plug.state is not PlugState.UNKNOWN,
+            contact_known=self._contact_known(),
         )
+
+    def _contact_known(self) -> bool:
+        """Not of a lost plug, nor while somebody calibrates: with a spring before it, for one."""
+        holder = self._supervisor.holder
+        calibrates = holder is not None and holder.kind == "calibration"
+        return self._supervisor.plug.state is not PlugState.UNKNOWN and not calibrates
 
     def _spread(self, changes: Sequence[Change]) -> None:
         for change in changes:

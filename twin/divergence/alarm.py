@@ -42,6 +42,10 @@ class Alarm:
             self.divergence = replace(self.divergence, largest=residual)
         return self._maybe_clear(residual, at_s)
 
+    def interrupt(self) -> None:
+        """Nothing can be compared just now: what has begun to differ begins anew after that."""
+        self._above = 0
+
     def end(self) -> Change | None:
         """The comparison is no longer possible or no longer matters."""
         self._above = 0

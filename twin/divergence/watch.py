@@ -19,6 +19,7 @@ from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
 from twin.kinematics import KinematicsError, gamma
 from twin.motion.segments import Segment
+from twin.slide_pace import SlidePace
 
 _JOINTS = {Quantity.RHO1: 0, Quantity.RHO2: 1, Quantity.RHO3: 2}
 
@@ -37,6 +38,7 @@ class DivergenceWatch:
         self._tracking = Tracking(numbers.tracking)
         self._plan = PlanLine(numbers.set_point)
         self._force = InsertionForce(numbers.force)
+        self._pace = SlidePace()
         self._clock = PhaseClock(numbers.time)
         self._socket = SocketPlace(geometry, numbers.socket)
         self._alarms = {
@@ -71,11 +73,11 @@ class DivergenceWatch:
         residuals = [self._clock.compare(sample.at_s, self._plan.sent_s)]
         if sample.following:
             residuals += self._tracking.compare(sample)
-            if sample.contact_known:
-                residuals.append(self._force.compare(sample, self.entry))
+            residuals.append(self._compare_force(sample))
             residuals.append(self._plan.compare(sample) if sample.running else None)
         else:
             self._tracking.reset()
+            self._pace.reset()
             self._plan.drop()
         return self._judge(residuals, sample.at_s, sample.measured)
 
@@ -83,6 +85,18 @@ class DivergenceWatch:
         """Compare one sighting of the socket."""
         residual = self._socket.compare(sighting)
         return self._judge([residual], sighting.at_s, sighting.joints)
+
+    def _compare_force(self, sample: Sample) -> Residual | None:
+        """The comparison; None while the motor may be all that it shows, or contact is unknown."""
+        speed_mm_s = sample.velocity.rho3_mm_s
+        self._pace.take(sample.at_s, sample.commanded.rho3_mm, speed_mm_s, sample.measured.rho3_mm)
+        residual = self._force.compare(sample, self.entry) if sample.contact_known else None
+        if residual is not None:
+            against = residual.difference * speed_mm_s > 0
+            if self._pace.shows_too_much if against else self._pace.shows_too_little:
+                return residual
+        self._alarms[Quantity.FORCE].interrupt()
+        return None
 
     def _judge(
         self, residuals: Iterable[Residual | None], at_s: float, joints: JointPosition

@@ -24,4 +24,4 @@ async def test_every_step_of_ten_thousand_segments(programs: Programs, part: int
         steps = await compare_random_groups(board, GROUPS_OF_PART, seed=100 + part)
         assert (await rig.control.statistics()).late_ticks == 0
     print(f"\n{steps} steps of {16 * GROUPS_OF_PART} segments, each in its tick")
-    assert steps > 100_000
+    assert steps > 80_000

@@ -139,6 +139,7 @@ def test_everyone_who_watches_is_told_in_words() -> None:
         job = await scene.start(JobType.PLUG_IN)
         await scene.until_phase(JobPhase.INSERTING)
         await scene.until_moving()
+        await scene.later(0.6)
         scene.garage.world.jam_slide(scene.now_s)
         await scene.until(lambda: bool(services.divergence.parted))
         snapshot = await anext(services.live.watch())

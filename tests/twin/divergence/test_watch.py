@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from tests.support.slide_drive import MASSES_N_S2_MM, driven
 from tests.twin.divergence.samples import START, sample, slide_in
 from twin.divergence import (
     Change,
@@ -15,9 +18,13 @@ from twin.divergence import (
     Quantity,
     Sighting,
 )
-from twin.divergence.numbers import AlarmNumbers
+from twin.divergence.numbers import AlarmNumbers, ForceNumbers
 from twin.divergence.words import sentence, title
 from twin.geometry import RobotGeometry
+from twin.joints import JointVelocity
+
+COARSE = DivergenceNumbers(force=ForceNumbers(noise_n=4.3))
+"""A count more or less of the encoder in 16 ms, by which the board's loop works, is 8.6 N."""
 
 
 def watch() -> DivergenceWatch:
@@ -44,6 +51,30 @@ def test_a_jam_names_the_slide_and_where_it_stands() -> None:
     assert "The slide is at 80.00 mm instead of" in sentence(slide)
     assert "Pushing the plug 5.0 mm deep takes 79 N" in sentence(force)
     assert {each.quantity for each in model.parted} >= {Quantity.RHO3, Quantity.FORCE}
+
+
+def forces_found(load_n: Callable[[float], float], mass_n_s2_mm: float) -> list[Change]:
+    """What is said about the force of a slide that a real drive moves."""
+    model = DivergenceWatch(RobotGeometry(), COARSE)
+    changes: list[Change] = []
+    for told in driven(load_n, way_mm=20.0, mass_n_s2_mm=mass_n_s2_mm):
+        changes += model.take_sample(
+            sample(
+                told.at_s,
+                measured=START._replace(rho3_mm=START.rho3_mm + told.measured_mm),
+                commanded=START._replace(rho3_mm=START.rho3_mm + told.set_point_mm),
+                velocity=JointVelocity(0.0, 0.0, told.speed_mm_s),
+                force_n=told.force_n,
+            )
+        )
+    return [each for each in changes if each.divergence.quantity is Quantity.FORCE]
+
+
+@pytest.mark.parametrize("mass_n_s2_mm", MASSES_N_S2_MM)
+def test_what_turns_the_rotor_is_no_force_on_the_plug(mass_n_s2_mm: float) -> None:
+    assert forces_found(lambda _: 1.5, mass_n_s2_mm) == []
+    [met] = forces_found(lambda way_mm: 30.0 if way_mm > 10.0 else 1.5, mass_n_s2_mm)
+    assert 70.0 < met.divergence.place.joints.rho3_mm < 72.0
 
 
 def test_while_the_robot_homes_or_brakes_nothing_is_compared() -> None:
