@@ -41,7 +41,7 @@ from server.recordings.playbacks import Playbacks
 from server.recordings.recorder import Recorder
 from server.recordings.store import RecordingStore
 from server.services import Services
-from server.simulated_garage import introduce, let_follow, simulated_car
+from server.simulated_garage import introduce, let_follow, simulated_car, simulated_hand
 from server.storage.daily_backups import DailyBackups
 from server.storage.database import Database
 from server.storage.jobs import JobStore
@@ -233,6 +233,7 @@ async def running(
             twin=twin,
             garage=devices.garage,
             simulated_car=simulated_car(devices, settings),
+            simulated_hand=simulated_hand(devices),
             technician=technician,
         )
         show(services)

@@ -28,6 +28,7 @@ from server.push.service import PushService
 from server.recordings.playbacks import Playbacks
 from server.recordings.store import RecordingStore
 from server.simulated_car import SimulatedCar
+from server.simulated_hand import SimulatedHand
 from server.storage.accuracy_checks import AccuracyCheckStore
 from server.storage.database import Database
 from server.storage.jobs import JobStore
@@ -70,6 +71,8 @@ class Services:
         charge_point: Robot and station as one charger.
         twin: The 3D picture; None where nobody can watch.
         garage: The simulated garage with a simulated robot in it; None with a real robot.
+        simulated_hand: Holds the calibration board before a simulated camera; None before a real
+            one.
         simulated_car: The car of the simulated garage; None before a real camera.
         technician: What the technician's page asks for.
     """
@@ -102,6 +105,7 @@ class Services:
     twin: TwinHost | None
     garage: SimulatedGarage | None
     simulated_car: SimulatedCar | None
+    simulated_hand: SimulatedHand | None
     technician: TechnicianTools
 
     @property

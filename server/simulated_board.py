@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.labels.board_sheet import BoardLayout
+from server.labels.board_layout import BoardLayout
 
 TEXTURE_PX_PER_MM = 3
 BORDER_MM = 20

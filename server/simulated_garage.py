@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from drivers.registry import SIMULATOR, Devices
+from drivers.simulator.camera.camera import SimulatedCamera
 from drivers.simulator.following import RobotFollower
 from drivers.simulator.world import SimulatedWorld
 from server.config.settings import Settings
 from server.control.supervisor import Supervisor
 from server.schema.vehicles import SocketOffset, VehicleSettings
 from server.simulated_car import SimulatedCar
+from server.simulated_hand import SimulatedHand
 from server.storage.vehicles import VehicleStore
 
 DEMO_NAME = "Demo car"
@@ -43,6 +45,13 @@ def simulated_car(devices: Devices, settings: Settings) -> SimulatedCar | None:
     if devices.world is None or settings.camera.driver != SIMULATOR:
         return None
     return SimulatedCar(devices.world)
+
+
+def simulated_hand(devices: Devices) -> SimulatedHand | None:
+    """A hand with the calibration board before a simulated camera."""
+    if devices.world is None or not isinstance(devices.camera, SimulatedCamera):
+        return None
+    return SimulatedHand(devices.camera, devices.world.parameters.imaging)
 
 
 def let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:

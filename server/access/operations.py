@@ -80,6 +80,9 @@ OPERATIONS: Mapping[str, Need] = {
     "getAccuracyReport": Need.READ,
     "getDrift": Need.READ,
     "listRoutines": Need.READ,
+    "watchBoard": Need.READ,
+    "getBoardSheet": Need.READ,
+    "getBoardPicture": Need.READ,
     "keepCalibration": Need.SERVICE,
     "activateCalibration": Need.SERVICE,
     "rollBackCalibration": Need.SERVICE,
@@ -91,6 +94,8 @@ OPERATIONS: Mapping[str, Need] = {
     "getGuidance": Need.READ,
     "getSimulatedCar": Need.READ,
     "commandSimulatedCar": Need.SERVICE,
+    "getSimulatedBoard": Need.READ,
+    "commandSimulatedBoard": Need.SERVICE,
     # energy managers and other programs
     "getChargePoint": Need.CHARGE_POINT,
     "enableChargePoint": Need.CHARGE_POINT,

@@ -18,6 +18,7 @@ from server.api.pages import pages_router
 from server.api.problems import ANY_PROBLEM, install_handlers
 from server.api.routes import (
     access,
+    board,
     calibrations,
     camera,
     charge_point,
@@ -93,6 +94,7 @@ def create_app(start: StartServices, twin: TwinHost | None = None) -> FastAPI:
         events,
         webhooks,
         push,
+        board,
         calibrations,
         config,
         diagnostics,

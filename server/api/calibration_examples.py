@@ -138,13 +138,34 @@ CALIBRATION_MODELS: dict[str, Json] = {
                 "repeatability_mm": 0.094,
                 "direction_variation_mm": 0.058,
                 "duration_s": 141.2,
+                "verdict": "good",
+                "remarks": [],
             }
         ],
         "next_cursor": None,
     },
     "Activation": {"accept_worse": False},
     "Calibration": _CALIBRATION,
-    "CalibrationDetail": {**_CALIBRATION, "evidence": _EVIDENCE},
+    "BoardLook": {
+        "sequence": 57,
+        "width_px": 1640,
+        "height_px": 1232,
+        "corners_px": [[412.3, 288.1], [501.7, 290.4], [413.0, 377.9]],
+        "outline_px": [[412.3, 288.1], [501.7, 290.4], [413.0, 377.9]],
+        "notice": "taken",
+        "wish": {"place": "lower_right", "attitude": "left_away"},
+        "taken": 7,
+        "wanted": 18,
+        "coverage": [
+            [0, 2, 9, 12, 12, 8, 3, 0],
+            [1, 6, 14, 17, 16, 12, 5, 1],
+            [2, 8, 16, 20, 19, 14, 4, 0],
+            [2, 7, 15, 19, 18, 11, 2, 0],
+            [1, 5, 11, 14, 12, 6, 0, 0],
+            [0, 2, 6, 8, 5, 1, 0, 0],
+        ],
+    },
+    "CalibrationDetail": {**_CALIBRATION, "evidence": _EVIDENCE, "camera_evidence": None},
     "CalibrationEntry": {"values": _CAMERA_VALUES, "source": "camera-0003.toml"},
     "CalibrationPage": {"items": [_CALIBRATION], "next_cursor": None},
     "CalibrationNow": {
@@ -202,6 +223,10 @@ CALIBRATION_MODELS: dict[str, Json] = {
 
 CALIBRATION_REQUESTS: dict[str, dict[str, Json]] = {
     "beginCalibration": {
+        "camera": {
+            "summary": "Calibrate the camera with the printed board",
+            "value": {"kind": "camera", "square_mm": 24.05},
+        },
         "robot": {
             "summary": "Measure the robot; both belts were measured with a rule",
             "value": {

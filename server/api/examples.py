@@ -205,6 +205,18 @@ MODELS: dict[str, Json] = {
         "socket": None,
         "updated_at": NOW,
     },
+    "SimulatedBoardNow": {
+        "held": {
+            "type": "hold",
+            "right": -0.5,
+            "down": 0.0,
+            "distance_mm": 380.0,
+            "left_away_deg": 25.0,
+            "top_away_deg": 0.0,
+            "turn_deg": 0.0,
+            "within_s": 0.7,
+        }
+    },
     "SimulatedCarNow": {
         "x_mm": 642.1,
         "y_mm": 318.7,
@@ -243,6 +255,13 @@ BODIES: dict[str, Json] = {
 
 REQUESTS: dict[str, dict[str, Json]] = {
     **CALIBRATION_REQUESTS,
+    "commandSimulatedBoard": {
+        "hold": {
+            "summary": "Hold the board at the left, its left edge tipped away",
+            "value": {"type": "hold", "right": -0.6, "left_away_deg": 28},
+        },
+        "away": {"summary": "Take it away", "value": {"type": "away"}},
+    },
     "commandSimulatedCar": {
         "drive_in": {
             "summary": "Come in, 20 cm beside the way, and stop at the place",

@@ -21,7 +21,7 @@ from server.calibration.camera.solve import CameraSolution, solve_camera
 from server.calibration.camera.verdict import Verdict, judge
 from server.calibration.grade import Grade
 from server.config import Option, load_settings
-from server.labels.board_sheet import BoardLayout
+from server.labels.board_layout import BoardLayout
 from server.vision.image_file import load_grey_image
 
 FOLDER = "calibrations"

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from server.config import Option, load_settings
-from server.labels.board_sheet import BoardLayout, draw_board_sheet
+from server.labels.board_layout import BoardLayout
+from server.labels.board_sheet import draw_board_sheet
 from server.labels.drawing import Paper
 from server.labels.key_file import load_label_key
 from server.labels.label_sheet import LabelPrint, draw_label_sheet

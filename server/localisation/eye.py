@@ -103,7 +103,7 @@ class Eye:
         if expected is None:
             self._size = LabelSizeCheck()  # nobody says that the car still stands where it stood
         still = expected is None
-        frame = await self._frame()
+        frame = await self.frame()
         sighting = await self._locate(frame, vehicle, expected, still=still)
         if sighting is None:
             return None
@@ -143,25 +143,12 @@ class Eye:
         averaged = await self._average(vehicle, frames, None)
         return None if averaged is None else averaged[0]
 
-    async def _average(
-        self, vehicle: Vehicle, frames: int, expected: SocketPose | None
-    ) -> tuple[LabelPose, Frame] | None:
-        sightings: list[LabelPose] = []
-        doubts: list[Refusal] = []
-        for _ in range(frames):
-            frame = await self._frame()
-            sighting = await self._locate(frame, vehicle, expected, still=True)
-            if sighting is not None:
-                sightings.append(sighting)
-            elif isinstance(self._refusal, _DOUBTS):
-                doubts.append(self._refusal)
-        if sightings and 2 * len(sightings) >= frames:
-            return combine(sightings), frame
-        if 2 * len(doubts) >= frames:
-            raise doubts[-1]
-        return None
+    async def frame(self) -> Frame:
+        """A picture whose exposure begins from now on.
 
-    async def _frame(self) -> Frame:
+        Raises:
+            CameraDownError: the camera does not deliver.
+        """
         asked_s = asyncio.get_running_loop().time()
         try:
             frame = await self._camera.frame(exposed_after_s=asked_s)
@@ -173,6 +160,24 @@ class Eye:
                 f"The camera gave a picture that was {old_s:.1f} s old when it was asked for one."
             )
         return frame
+
+    async def _average(
+        self, vehicle: Vehicle, frames: int, expected: SocketPose | None
+    ) -> tuple[LabelPose, Frame] | None:
+        sightings: list[LabelPose] = []
+        doubts: list[Refusal] = []
+        for _ in range(frames):
+            frame = await self.frame()
+            sighting = await self._locate(frame, vehicle, expected, still=True)
+            if sighting is not None:
+                sightings.append(sighting)
+            elif isinstance(self._refusal, _DOUBTS):
+                doubts.append(self._refusal)
+        if sightings and 2 * len(sightings) >= frames:
+            return combine(sightings), frame
+        if 2 * len(doubts) >= frames:
+            raise doubts[-1]
+        return None
 
     async def _locate(
         self, frame: Frame, vehicle: Vehicle, expected: SocketPose | None, *, still: bool

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from server.calibration.grade import Grade
 from server.schema.base import Timestamp, Wire
 
 
@@ -38,6 +39,10 @@ class AccuracyCheck(Wire):
     repeatability_mm: float = Field(ge=0, description="The largest RP")
     direction_variation_mm: float = Field(ge=0, description="The largest vAP")
     duration_s: float = Field(ge=0, description="Robot time")
+    verdict: Grade | None = Field(default=None, description="Is it exact enough for sockets?")
+    remarks: list[str] = Field(
+        default_factory=list, description="What keeps it from being better, with what to do"
+    )
 
 
 class AccuracyCheckPage(Wire):

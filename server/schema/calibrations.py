@@ -154,6 +154,27 @@ class RobotEvidence(Wire):
     )
 
 
+class CameraViewRecord(Wire):
+    """One picture of the board, and how it fits to the calibration."""
+
+    rms_px: float = Field(ge=0, description="Root mean square residual of its corners")
+    tilt_rad: float = Field(description="Between the board and the plane of the picture")
+    distance_mm: float = Field(ge=0)
+    used: bool = Field(description="False: it does not fit to the others and was left out")
+
+
+class CameraEvidence(Wire):
+    """What a calibration of the camera rests on."""
+
+    views: list[CameraViewRecord]
+    coverage: list[list[int]] = Field(
+        description="How many corners were in each cell of a grid over the picture, by rows"
+    )
+    sigma: dict[str, float] = Field(description="Standard deviation of each number")
+    rms_px: float = Field(ge=0, description="Root mean square residual of all corners")
+    check_px: float = Field(ge=0, description="The same on pictures that were held back")
+
+
 class Calibration(Wire):
     """One version. It never changes."""
 
@@ -180,6 +201,9 @@ class CalibrationDetail(Calibration):
     """One version with what it rests on."""
 
     evidence: RobotEvidence | None
+    camera_evidence: CameraEvidence | None = Field(
+        default=None, description="Null: not of a camera, or its numbers come from elsewhere"
+    )
 
 
 class CalibrationPage(Wire):

@@ -110,8 +110,18 @@ class ForceRoutineRequest(Wire):
     )
 
 
+class CameraRoutineRequest(Wire):
+    """Calibrate the camera with the printed board, held before it by hand; the robot stands."""
+
+    kind: Literal["camera"] = "camera"
+    square_mm: Annotated[float, Field(ge=5, le=200, allow_inf_nan=False)] = Field(
+        24.0, description="Measured side of a square of the printed board"
+    )
+
+
 RoutineRequest = Annotated[
-    RobotRoutineRequest
+    CameraRoutineRequest
+    | RobotRoutineRequest
     | SocketRoutineRequest
     | CheckRoutineRequest
     | SwitchesRoutineRequest
@@ -121,7 +131,7 @@ RoutineRequest = Annotated[
     Field(discriminator="kind"),
 ]
 
-RoutineKind = Literal["robot", "socket", "check", "switches", "play", "belts", "force"]
+RoutineKind = Literal["camera", "robot", "socket", "check", "switches", "play", "belts", "force"]
 
 
 class RoutineLook(Wire):
@@ -203,7 +213,7 @@ class Routine(Wire):
     )
     doing: str = Field(description="In a sentence")
     done: int = Field(ge=0)
-    total: int = Field(ge=0, description="Places to look from; 0 until they are chosen")
+    total: int = Field(ge=0, description="Places to look from, or views; 0 until known")
     looks: list[RoutineLook]
     begun_by: str
     begun_at: Timestamp

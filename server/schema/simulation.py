@@ -59,3 +59,37 @@ class SimulatedCarNow(Wire):
     z_mm: float
     speed_mm_s: float = Field(description="Forward")
     moving: bool
+
+
+Tilt = Annotated[float, Field(ge=-60, le=60, allow_inf_nan=False)]
+InPicture = Annotated[float, Field(ge=-1.2, le=1.2, allow_inf_nan=False)]
+
+
+class HoldBoard(Wire):
+    """Hold the calibration board before the camera; the hand goes there in a moment."""
+
+    type: Literal["hold"] = "hold"
+    right: InPicture = Field(0.0, description="Its middle in the picture: -1 left edge, 1 right")
+    down: InPicture = Field(0.0, description="The same from the top to the bottom")
+    distance_mm: Annotated[float, Field(ge=150, le=1500, allow_inf_nan=False)] = 380.0
+    left_away_deg: Tilt = Field(0.0, description="Its left edge is tipped away from the camera")
+    top_away_deg: Tilt = Field(0.0, description="Its upper edge is tipped away from the camera")
+    turn_deg: Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)] = Field(
+        0.0, description="In the plane of the picture, clockwise"
+    )
+    within_s: Annotated[float, Field(ge=0, le=10, allow_inf_nan=False)] = 0.7
+
+
+class PutBoardAway(Wire):
+    """Take the board away."""
+
+    type: Literal["away"] = "away"
+
+
+BoardCommand = Annotated[HoldBoard | PutBoardAway, Field(discriminator="type")]
+
+
+class SimulatedBoardNow(Wire):
+    """What the simulated hand does."""
+
+    held: HoldBoard | None = Field(description="Where it holds the board, or brings it; null: away")

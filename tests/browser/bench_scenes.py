@@ -248,13 +248,13 @@ def _calibration(page: Page) -> None:
 
 def _guide(page: Page) -> None:
     _calibration(page)
-    page.locator(".calibration-start").first.click()
+    page.locator(".calibration-start").nth(1).click()
     page.locator(".calibration-guide").wait_for()
 
 
 def _force_guide(page: Page) -> None:
     _calibration(page)
-    page.locator(".calibration-start").nth(4).click()
+    page.locator(".calibration-start").nth(5).click()
     page.locator(".calibration-guide").wait_for()
 
 

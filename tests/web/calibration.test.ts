@@ -341,6 +341,10 @@ test("a check shows its figures and where the robot came to", async () => {
   await screen.findByText("0.094 mm");
   expect(document.querySelectorAll(".plot circle.below").length).toBe(1);
   expect(document.querySelectorAll(".plot circle.above").length).toBe(1);
-  const report = screen.getByRole("link", { name: "Download the report (PDF)" });
-  expect(report.getAttribute("href")).toBe(`/api/v1/calibrations/checks/${CHECKS.items[0]!.id}/report.pdf`);
+  await screen.findByText("Good: exact enough for sockets.");
+  const title = "There is no such check";
+  const problem = { code: "calibration_check_not_found", title, detail: "It is gone.", remedy: "Look at the list of checks." };
+  rest.answer(`GET /calibrations/checks/${CHECKS.items[0]!.id}/report.pdf`, [404, problem]);
+  await press("Download the report (PDF)");
+  await screen.findByText(`${title}.`);
 });

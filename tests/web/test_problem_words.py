@@ -8,6 +8,7 @@ from pathlib import Path
 
 from drivers.robot import FaultCode
 from server.access import errors as access
+from server.calibration.camera import errors as camera
 from server.calibration.robot import errors as looks
 from server.calibration.routines import errors as routines
 from server.calibration.versions import errors as versions
@@ -52,7 +53,7 @@ def test_every_problem_of_the_home_page_is_translated() -> None:
 
 
 def test_every_problem_of_calibration_is_translated_for_technicians() -> None:
-    rooms = {room.__name__ for room in (looks, routines, versions)}
+    rooms = {room.__name__ for room in (camera, looks, routines, versions)}
     shown = {kind.code for kind in _kinds(PlugPilotError) if kind.__module__ in rooms}
     assert shown - _listed(BENCH) == set()
 
@@ -77,7 +78,7 @@ def test_every_counted_sentence_of_a_routine_is_known_by_its_beginning() -> None
 def test_every_question_of_a_routine_is_translated() -> None:
     folder = WEB.parents[1] / "server" / "calibration" / "routines"
     source = "".join(path.read_text(encoding="utf-8") for path in folder.glob("*_routine.py"))
-    asked = set(re.findall(r'progress\.(?:confirm|number)\(\s*f?"([^"]+)"', source))
+    asked = set(re.findall(r'progress\.(?:confirm|number|offer)\(\s*f?"([^"]+)"', source))
     assert "belts_{name}" in asked
     asked = asked - {"belts_{name}"} | {"belts_left", "belts_right"}
     known = (WEB / "calibration" / "asked.ts").read_text(encoding="utf-8")

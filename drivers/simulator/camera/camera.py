@@ -10,6 +10,7 @@ from drivers.camera.errors import CameraFrozenError, CameraMissingError, WrongRe
 from drivers.simulator.camera.auto_exposure import AutoExposure, ExposureSetting
 from drivers.simulator.camera.conditions import FLAWLESS, Conditions
 from drivers.simulator.camera.frame_clock import FrameClock
+from drivers.simulator.camera.held_sheet import HeldSheet
 from drivers.simulator.camera.imaging import CameraFault, ImagingParameters
 from drivers.simulator.camera.light_history import LightHistory
 from drivers.simulator.camera.renderer import Renderer, usual_light
@@ -56,6 +57,7 @@ class SimulatedCamera:
         self._seed = seed
         self._conditions = conditions
         self._light = LightHistory()
+        self._held: HeldSheet | None = None
         self._renderer: Renderer | None = None
         self._clock: FrameClock | None = None
         self._exposures: AutoExposure | None = None
@@ -85,6 +87,10 @@ class SimulatedCamera:
             ValueError: it is negative or not a number.
         """
         self._light.change(asyncio.get_running_loop().time(), light)
+
+    def hold(self, sheet: HeldSheet | None) -> None:
+        """From now on somebody holds this before the camera; None: nothing."""
+        self._held = sheet
 
     async def open(self) -> None:
         """Start the frame clock.
@@ -158,6 +164,9 @@ class SimulatedCamera:
             else:
                 self._repeated = 0
                 view = view_while_read_out(self._view, captured_at_s, self._imaging.readout_s)
+                held = self._held
+                readout_s = self._imaging.readout_s
+                sheet = held.while_read_out(captured_at_s, readout_s) if held else None
                 image = await asyncio.to_thread(
                     self._require_renderer().picture,
                     view,
@@ -165,6 +174,7 @@ class SimulatedCamera:
                     setting=setting,
                     light=self._light.at(captured_at_s),
                     dark=self.fault is CameraFault.DARK,
+                    sheet=sheet,
                 )
                 image.flags.writeable = False
             frame = Frame(image, captured_at_s, number, setting.exposure_s)

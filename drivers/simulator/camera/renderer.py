@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from drivers.camera import CameraModel
 from drivers.simulator.camera.auto_exposure import ExposureSetting, fixed_setting
 from drivers.simulator.camera.conditions import FLAWLESS, Conditions
+from drivers.simulator.camera.held_sheet import PlacedSheet
 from drivers.simulator.camera.imaging import ImagingParameters
 from drivers.simulator.camera.label_condition import LabelCondition
 from drivers.simulator.camera.rain_drops import lens_drop_cover
@@ -64,6 +65,7 @@ class Renderer:
         setting: ExposureSetting | None = None,
         light: float = 1.0,
         dark: bool = False,
+        sheet: PlacedSheet | None = None,
     ) -> NDArray[np.uint8]:
         """Render a frame.
 
@@ -73,6 +75,7 @@ class Renderer:
             setting: Exposure time and gain; None as set for the usual light.
             light: Ambient light over the configured one.
             dark: No light reaches the sensor.
+            sheet: Held before the camera.
 
         Returns:
             Grey values, shape (height, width).
@@ -80,7 +83,9 @@ class Renderer:
         setting = setting or self._usual
         ambient = self._imaging.ambient * light
         with self._drawing:  # a picture whose asker was cancelled may still be in the making
-            exposed = self._scene.render(view, ambient=ambient, exposure_s=setting.exposure_s)
+            exposed = self._scene.render(
+                view, ambient=ambient, exposure_s=setting.exposure_s, sheet=sheet
+            )
             if dark:
                 exposed = exposed._replace(light=np.zeros_like(exposed.light))
             return self._sensor.expose(exposed, sequence, setting)

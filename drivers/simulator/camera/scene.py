@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +14,7 @@ from drivers.camera import CameraModel
 from drivers.simulator.camera.car_plane import CarPaint, CarPlane, car_plane
 from drivers.simulator.camera.coarse_grid import CoarseGrid, Field, coarse_grid
 from drivers.simulator.camera.conditions import FLAWLESS, Conditions
+from drivers.simulator.camera.held_sheet import PlacedSheet
 from drivers.simulator.camera.imaging import ImagingParameters
 from drivers.simulator.camera.label_condition import LabelCondition
 from drivers.simulator.camera.label_texture import LabelPainter
@@ -44,6 +47,7 @@ _MOST_TEXELS_PER_MODULE = 40
 _WHITE = 0.85  # brightness of a reflection is relative to a white surface
 _LEAST_LIGHT = 1e-6
 _KEPT_TEXTURES = 8
+_SHEET_STEP = 0.02
 
 
 class Exposed(NamedTuple):
@@ -107,7 +111,12 @@ class SceneRenderer:
         self._kept.clear()
 
     def render(
-        self, view: CameraView, *, ambient: float | None = None, exposure_s: float | None = None
+        self,
+        view: CameraView,
+        *,
+        ambient: float | None = None,
+        exposure_s: float | None = None,
+        sheet: PlacedSheet | None = None,
     ) -> Exposed:
         """Reflectance and light seen by every pixel.
 
@@ -115,6 +124,7 @@ class SceneRenderer:
             view: The true scene in the middle of the frame.
             ambient: Brightness of the ambient light; None as configured.
             exposure_s: None as configured.
+            sheet: Held between camera and car; it is lit as what lies behind it.
 
         Raises:
             ValueError: the payload does not fit into a QR code.
@@ -131,6 +141,8 @@ class SceneRenderer:
             car = car_plane(self._grid, socket, rows)
             light = self._lighting.at(car, socket, ambient)
             self._draw_car(car, light, view, rows, exposure_s)
+        if sheet is not None:
+            self._draw_sheet(sheet, view, exposure_s)
         tip_mm = max(float(view.T_camera_plug[2, 3]), 30.0)
         sigma_px = imaging.blur_px(tip_mm, self._optics)
         draw_plug(self._canvas, self._optics, view.T_camera_plug, socket, sigma_px)
@@ -173,6 +185,23 @@ class SceneRenderer:
             PlacedPlane(label, self._label.condition, half_mm, shine),
         )
 
+    def _draw_sheet(self, sheet: PlacedSheet, view: CameraView, exposure_s: float) -> None:
+        pose, imaging = sheet.T_camera_sheet, self._imaging
+        distance_mm = float(pose[2, 3])
+        if distance_mm < _NEAREST_MM:
+            return
+        px_per_mm = self._optics.fx / distance_mm
+        # A hand is never at its distance of before: blurred anew only where that is to be seen.
+        key = ("sheet", sheet.texture, round(math.log(px_per_mm) / _SHEET_STEP))
+        if key not in self._kept:
+            disc_px = imaging.disc_px(distance_mm, self._optics)
+            self._keep(key, sheet.texture.blurred(imaging.lens_blur_px, disc_px, px_per_mm))
+        way = pose[:3, :3].T @ sheet.velocity_mm_s * exposure_s
+        smeared = self._kept[key].smeared((float(way[0]), float(way[1])))
+        moving = replace(view, row_way=sheet.way)
+        rows = RowMotion(moving, imaging.readout_s, self._optics.height)
+        draw_plane(self._canvas, self._rays, smeared, PlacedPlane(pose), rows)
+
     def _gloss(
         self,
         car: CarPlane,
@@ -201,11 +230,14 @@ class SceneRenderer:
             if texture.alpha.shape[0] * texture.texel_mm * px_per_mm < _SMALLEST_PX:
                 return None
             disc_px = imaging.disc_px(distance_mm, optics)
-            self._kept[whole] = texture.blurred(imaging.lens_blur_px, disc_px, px_per_mm)
-            if len(self._kept) > _KEPT_TEXTURES:
-                self._kept.popitem(last=False)
+            self._keep(whole, texture.blurred(imaging.lens_blur_px, disc_px, px_per_mm))
         self._kept.move_to_end(whole)
         return self._kept[whole]
+
+    def _keep(self, key: Hashable, texture: PlaneTexture) -> None:
+        self._kept[key] = texture
+        if len(self._kept) > _KEPT_TEXTURES:
+            self._kept.popitem(last=False)
 
     def _texels(self, view: CameraView) -> int:
         """Texels per module that are finer than the label's blur."""

@@ -11,6 +11,7 @@ from server.api.dependencies import ServicesDep
 from server.api.gate import caller_of
 from server.api.pagination import Cursor, Limit, id_in, split_page
 from server.api.problems import problem_responses
+from server.calibration.routines.check_record import with_verdict
 from server.calibration.routines.described import ROUTINES
 from server.calibration.versions.errors import CheckNotFoundError
 from server.calibration.versions.service import NewCalibration
@@ -91,7 +92,9 @@ async def list_checks(
     """How exactly the robot went where it was sent, newest first."""
     found = await services.accuracy_checks.page(before=id_in(cursor), limit=limit)
     page, last = split_page(found, limit)
-    return AccuracyCheckPage(items=page, next_cursor=last.id if last else None)
+    return AccuracyCheckPage(
+        items=[with_verdict(one) for one in page], next_cursor=last.id if last else None
+    )
 
 
 @router.get(

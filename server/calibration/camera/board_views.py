@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from server.calibration.camera.errors import MixedResolutionError, NoBoardError, WrongBoardError
-from server.labels.board_sheet import BoardLayout
+from server.labels.board_layout import BoardLayout
 
 FEWEST_CORNERS = 12
 """A view with fewer says little and is often a mistake."""

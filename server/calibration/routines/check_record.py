@@ -6,6 +6,7 @@ from datetime import datetime
 
 from uuid6 import uuid7
 
+from server.calibration.accuracy.verdict import judge_places
 from server.calibration.routines.check_routine import CheckResult
 from server.schema.accuracy import AccuracyCheck
 
@@ -31,3 +32,9 @@ def check_of(found: CheckResult, made_at: datetime, calibration_id: str | None) 
         direction_variation_mm=max(place.direction_variation_mm for place in found.places),
         duration_s=found.duration_s,
     )
+
+
+def with_verdict(check: AccuracyCheck) -> AccuracyCheck:
+    """A check as it is shown, judged by what is asked for today."""
+    grade, remarks = judge_places(check.places)
+    return check.model_copy(update={"verdict": grade, "remarks": list(remarks)})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from server.calibration.routines.belts_routine import BeltsRoutine
+from server.calibration.routines.camera_routine import CameraRoutine
 from server.calibration.routines.check_routine import CheckRoutine
 from server.calibration.routines.force_routine import ForceRoutine
 from server.calibration.routines.play_routine import PlayRoutine
@@ -13,6 +14,7 @@ from server.calibration.routines.switches_routine import SwitchesRoutine
 from server.jobs.errors import UnknownVehicleError, VehicleChoiceError
 from server.schema.routines import (
     BeltsRoutineRequest,
+    CameraRoutineRequest,
     CheckRoutineRequest,
     ForceRoutineRequest,
     PlayRoutineRequest,
@@ -34,6 +36,8 @@ async def routine_for(request: RoutineRequest, by: str, vehicles: VehicleStore) 
         return BeltsRoutine(request, by)
     if isinstance(request, ForceRoutineRequest):
         return ForceRoutine(request, by)
+    if isinstance(request, CameraRoutineRequest):
+        return CameraRoutine(request, by)
     vehicle = await _chosen(request.vehicle_id, vehicles)
     if isinstance(request, RobotRoutineRequest):
         return RobotRoutine(request, by, vehicle)

@@ -25,6 +25,18 @@ def _number(
 
 ROUTINES = (
     RoutineDescription(
+        kind="camera",
+        title="Camera",
+        what="Looks while you hold the printed board before the camera, and says what to do next.",
+        before=[
+            "Print the board with `plugpilot label --board`, and glue it onto something flat.",
+            "Measure the side of a square, best over several of them.",
+            "Bring the robot to where you reach the camera, and stand so that you see this page.",
+        ],
+        needs_label=False,
+        settings=[_number("square_mm", "Side of a square", "mm", (5, 200), 24)],
+    ),
+    RoutineDescription(
         kind="switches",
         title="Limit switches",
         what="Homes again and again, and looks each time by how much the robot then stands "

@@ -8,7 +8,9 @@ from collections.abc import Callable
 from datetime import datetime
 from typing import Literal
 
+from server.calibration.camera.errors import CalibrationDivergedError
 from server.calibration.robot.errors import RobotCalibrationError
+from server.calibration.routines.board_feed import BoardFeed
 from server.calibration.routines.check_record import check_of
 from server.calibration.routines.check_routine import CheckResult
 from server.calibration.routines.choice import routine_for
@@ -45,7 +47,13 @@ NOTE = "routine"
 
 State = Literal["running", "interrupted", "finished", "failed", "cancelled"]
 
-_FINAL = (LabelMovedError, AxesSwappedError, MotorReversedError, RobotCalibrationError)
+_FINAL = (
+    LabelMovedError,
+    AxesSwappedError,
+    MotorReversedError,
+    RobotCalibrationError,
+    CalibrationDivergedError,
+)
 """What cannot be mended by going on; after anything else a routine can be resumed."""
 
 
@@ -61,6 +69,9 @@ class RoutineDesk:
         calendar: Dates.
         checks: Keeps nine-point checks.
         notes: Keeps what was under way.
+
+    Attributes:
+        board: What the camera routine sees.
     """
 
     def __init__(
@@ -75,6 +86,7 @@ class RoutineDesk:
         checks: AccuracyCheckStore,
         notes: CalibrationNotes,
     ) -> None:
+        self.board = BoardFeed()
         self._supervisor = supervisor
         self._eye = eye
         self._vehicles = vehicles
@@ -216,6 +228,8 @@ class RoutineDesk:
 
     def _go_on(self, routine: AnyRoutine, lease: Lease) -> Routine:
         self._state, self._problem = "running", None
+        if routine.request.kind == "camera":
+            self.board.open()
         self._task = asyncio.create_task(self._run(routine, lease), name="calibration")
         # Not in the task: one that is cancelled before its first step never runs.
         self._task.add_done_callback(lambda _: self._supervisor.give_back(lease))
@@ -232,6 +246,7 @@ class RoutineDesk:
             as_taught=self._calibrations.as_taught,
             in_force=self._calibrations.in_force,
             evidence=self._calibrations.robot_evidence,
+            board=self.board,
         )
         try:
             found = await routine.run(stand, self._progress)
@@ -246,6 +261,7 @@ class RoutineDesk:
             self._state = "failed"
         else:
             self._state = "finished"
+        await self.board.close()
         self._changed()
         await self._write(self._show(routine))
 
@@ -271,6 +287,7 @@ class RoutineDesk:
         if self._task is not None:
             self._task.cancel()
             await asyncio.wait({self._task})
+        await self.board.close()
 
     def _refuse_second(self) -> None:
         if self._state == "running":

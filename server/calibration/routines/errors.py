@@ -10,6 +10,8 @@ RoutineError
 ├── NoSpringError            nothing gave way as a spring does
 ├── LabelMovedError          the label is not where it was when the routine began
 ├── LabelLostError           too few places show the label
+├── BoardBlurredError        the calibration board is not sharp, though it stands still
+├── TooFewViewsError         nothing new came for long, and there are too few views
 ├── PlugNotInError           the socket cannot be taught without the plug in it
 ├── AxesSwappedError         the carriages answer for each other
 └── MotorReversedError       a carriage runs the wrong way
@@ -99,6 +101,22 @@ class LabelLostError(RoutineError):
     code = "calibration_label_lost"
     title = "The label was seen too seldom"
     remedy = "Look for glare, dirt and things in front of the label, then go on."
+
+
+class BoardBlurredError(RoutineError):
+    """The calibration board is not sharp, though it stands still."""
+
+    code = "calibration_board_blurred"
+    title = "The board is blurred"
+    remedy = "Clean the lens, set its focus to where labels are, give it more light, then go on."
+
+
+class TooFewViewsError(RoutineError):
+    """Nothing new came for long, and there are too few views."""
+
+    code = "calibration_too_few_views"
+    title = "There are too few views of the board"
+    remedy = "Go on, and hold the board as the page says, still for a second each time."
 
 
 class PlugNotInError(RoutineError):

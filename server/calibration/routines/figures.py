@@ -8,6 +8,7 @@ from server.calibration.routines.check_routine import CheckResult
 from server.calibration.versions.service import NewCalibration
 from server.schema.calibrations import (
     CalibrationKind,
+    CameraValues,
     ForceValues,
     PlayValues,
     RobotValues,
@@ -37,6 +38,13 @@ def verdict_of(
 
 def _of_values(found: NewCalibration) -> list[RoutineFigure]:
     values, sigma = found.values, found.evidence.sigma if found.evidence else {}
+    if isinstance(values, CameraValues):
+        camera = values.camera
+        return [
+            _figure("fx", "Focal length", camera.fx, sigma.get("fx"), "px"),
+            _figure("cx", "Centre, across", camera.cx, sigma.get("cx"), "px"),
+            _figure("cy", "Centre, down", camera.cy, sigma.get("cy"), "px"),
+        ]
     if isinstance(values, RobotValues):
         built = values.mechanism
         return [

@@ -58,6 +58,17 @@ class Progress:
             raise AssertionError("a number was asked for, and an answer without one was taken")
         return value
 
+    def offer(self, code: str, text: str) -> asyncio.Future[float | None]:
+        """Ask without waiting: what is under way goes on until there is an answer, or for good."""
+        self.asks = RoutineQuestion(code=code, text=text, input=None)
+        self._answer = asyncio.get_running_loop().create_future()
+        self.changed()
+        return self._answer
+
+    def withdraw(self) -> None:
+        """Ask nothing any more."""
+        self.asks = self._answer = None
+
     def take_answer(self, answer: RoutineAnswer) -> None:
         """Answer what the routine asks.
 

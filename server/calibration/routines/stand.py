@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from drivers.robot import RobotState
 from server.calibration.robot.looks import LabelLook
+from server.calibration.routines.board_feed import BoardFeed
 from server.calibration.routines.errors import LabelLostError
 from server.calibration.versions.values import ValuesInForce
 from server.config.settings import Settings
@@ -47,6 +48,7 @@ class Stand:
         as_taught: Puts the socket of a vehicle where it was taught.
         in_force: The numbers that count.
         evidence: What the calibration of the robot in force rests on, if anything.
+        board: Shows pictures of the board to whoever watches.
     """
 
     supervisor: Supervisor
@@ -57,6 +59,7 @@ class Stand:
     as_taught: Callable[[Vehicle], Vehicle]
     in_force: ValuesInForce
     evidence: RobotEvidence | None
+    board: BoardFeed
 
     @property
     def vehicle(self) -> Vehicle:

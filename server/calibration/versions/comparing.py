@@ -15,6 +15,9 @@ from server.schema.calibrations import CalibrationKind, LookRecord, RobotEvidenc
 from twin.as_built import PlanarAsBuilt
 from twin.geometry import RobotGeometry
 
+TIE = {CalibrationKind.CAMERA: 0.01}
+"""Differences that are chance: of two cameras that are both right, either may be ahead [px]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
@@ -36,7 +39,7 @@ class Comparison:
         unit = self.kind.unit
         if self.candidate is None:
             return "This calibration was never measured: nobody knows how far it is off."
-        if self.in_force is None or self.candidate <= self.in_force:
+        if self.in_force is None or self.candidate <= self.in_force + TIE.get(self.kind, 0.0):
             return None
         return (
             f"It misses by {self.candidate:.3f} {unit}, the one in force by "

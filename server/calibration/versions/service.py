@@ -20,6 +20,7 @@ from server.calibration.versions.errors import (
     CalibrationWorseError,
     NothingToRollBackError,
 )
+from server.calibration.versions.evidence import as_kept, camera_evidence_of, robot_evidence_of
 from server.calibration.versions.values import ValuesInForce, subject_of
 from server.config.settings import Settings
 from server.control.finishing import finish
@@ -30,6 +31,7 @@ from server.schema.calibrations import (
     CalibrationDetail,
     CalibrationKind,
     CalibrationValues,
+    CameraEvidence,
     CameraValues,
     RobotEvidence,
     RobotValues,
@@ -70,7 +72,7 @@ class NewCalibration:
     remarks: tuple[str, ...] = ()
     error: float | None = None
     error_in_use: float | None = None
-    evidence: RobotEvidence | None = None
+    evidence: RobotEvidence | CameraEvidence | None = None
 
 
 class LooksThroughCamera(Protocol):
@@ -125,7 +127,7 @@ class Calibrations:
     def robot_evidence(self) -> RobotEvidence | None:
         """What the calibration of the robot that counts rests on; None: nothing, or as drawn."""
         stored = self._in_force.get((CalibrationKind.ROBOT, WHOLE_ROBOT))
-        return _evidence_of(stored) if stored else None
+        return robot_evidence_of(stored) if stored else None
 
     def as_taught(self, vehicle: Vehicle) -> Vehicle:
         """A vehicle with its socket where it was taught, if it was."""
@@ -168,7 +170,7 @@ class Calibrations:
                 grade=new.grade.value,
                 remarks=list(new.remarks),
                 content=new.values.model_dump(mode="json"),
-                evidence=new.evidence.model_dump(mode="json") if new.evidence else None,
+                evidence=as_kept(new.evidence),
                 error=new.error,
                 error_in_use=new.error_in_use,
             )
@@ -190,7 +192,11 @@ class Calibrations:
         """
         stored = await self._require(calibration_id)
         shown = self._shown(stored)
-        return CalibrationDetail(**dict(shown), evidence=_evidence_of(stored))
+        return CalibrationDetail(
+            **dict(shown),
+            evidence=robot_evidence_of(stored),
+            camera_evidence=camera_evidence_of(stored),
+        )
 
     async def compare(self, calibration_id: str) -> Comparison:
         """Compare a version with the one in force.
@@ -276,7 +282,7 @@ class Calibrations:
             onlooker.recalibrate(values.optics(camera), values.mount(camera))
 
     def _compared(self, stored: StoredCalibration) -> Comparison:
-        values, evidence = _VALUES.validate_python(stored.content), _evidence_of(stored)
+        values, evidence = _VALUES.validate_python(stored.content), robot_evidence_of(stored)
         if isinstance(values, RobotValues) and evidence is not None and evidence.looks:
             return compared_on_looks(
                 values, evidence, stored.error, self.in_force.mechanism, self._settings.geometry
@@ -335,10 +341,6 @@ def _values_of(versions: dict[Key, StoredCalibration]) -> ValuesInForce:
 
 def _key(stored: StoredCalibration) -> Key:
     return CalibrationKind(stored.kind), stored.subject
-
-
-def _evidence_of(stored: StoredCalibration) -> RobotEvidence | None:
-    return RobotEvidence.model_validate(stored.evidence) if stored.evidence else None
 
 
 def _figures(comparison: Comparison) -> dict[str, float | None]:

@@ -12,7 +12,7 @@ import zxingcpp
 from click.testing import CliRunner, Result
 
 from server.cli import main
-from server.labels.board_sheet import BoardLayout
+from server.labels.board_layout import BoardLayout
 from server.labels.drawing import PRINT_DPI, Paper
 from server.labels.key_file import load_label_key
 from server.labels.payload import label_text

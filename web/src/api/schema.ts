@@ -456,6 +456,26 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/calibrations/board.pdf": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Download the board
+         * @description The board by which the camera is calibrated, on A4 with a ruler to check the print.
+         */
+        readonly get: operations["getBoardSheet"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/calibrations/checks": {
         readonly parameters: {
             readonly query?: never;
@@ -578,6 +598,48 @@ export interface paths {
          *     interrupted, by a stop or a lost label, keeps what it has and can be resumed.
          */
         readonly post: operations["beginCalibration"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/board": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Watch the board
+         * @description The newest picture of the board and what to do next; waits for one that is not known.
+         *
+         *     Only while the camera is calibrated.
+         */
+        readonly get: operations["watchBoard"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
+    readonly "/api/v1/calibrations/routine/board/{sequence}.jpg": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read a picture of the board
+         * @description The picture of a look; only the newest few are kept.
+         */
+        readonly get: operations["getBoardPicture"];
+        readonly put?: never;
+        readonly post?: never;
         readonly delete?: never;
         readonly options?: never;
         readonly head?: never;
@@ -1604,6 +1666,30 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/simulation/board": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read the simulated board
+         * @description Where a simulated hand holds the calibration board.
+         */
+        readonly get: operations["getSimulatedBoard"];
+        readonly put?: never;
+        /**
+         * Hold the simulated board
+         * @description Hold the calibration board before the simulated camera, or take it away; answers at once.
+         */
+        readonly post: operations["commandSimulatedBoard"];
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/simulation/car": {
         readonly parameters: {
             readonly query?: never;
@@ -1930,10 +2016,17 @@ export interface components {
             /** Places */
             readonly places: readonly components["schemas"]["CheckedPlace"][];
             /**
+             * Remarks
+             * @description What keeps it from being better, with what to do
+             */
+            readonly remarks?: readonly string[];
+            /**
              * Repeatability Mm
              * @description The largest RP
              */
             readonly repeatability_mm: number;
+            /** @description Is it exact enough for sockets? */
+            readonly verdict?: components["schemas"]["Grade"] | null;
         };
         /**
          * AccuracyCheckPage
@@ -2149,6 +2242,78 @@ export interface components {
             readonly reading_sigma_mm?: number;
         };
         /**
+         * BoardLook
+         * @description One picture of the board.
+         */
+        readonly BoardLook: {
+            /**
+             * Corners Px
+             * @description Corners of the board that were found
+             */
+            readonly corners_px: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Coverage
+             * @description How many corners have been in each cell of a grid over the picture, by rows
+             */
+            readonly coverage: readonly (readonly number[])[];
+            /** Height Px */
+            readonly height_px: number;
+            /**
+             * Notice
+             * @description What the picture is good for
+             * @enum {string}
+             */
+            readonly notice: "no_board" | "other_board" | "show_more" | "moving" | "blurred" | "known" | "taken";
+            /**
+             * Outline Px
+             * @description Around them, in order
+             */
+            readonly outline_px: readonly (readonly [
+                number,
+                number
+            ])[];
+            /**
+             * Sequence
+             * @description Grows; names the picture
+             */
+            readonly sequence: number;
+            /**
+             * Taken
+             * @description Views that were kept so far
+             */
+            readonly taken: number;
+            /**
+             * Wanted
+             * @description How many there should be in the end
+             */
+            readonly wanted: number;
+            /**
+             * Width Px
+             * @description Of the camera; the picture itself may be sent smaller
+             */
+            readonly width_px: number;
+            readonly wish: components["schemas"]["BoardWish"];
+        };
+        /**
+         * BoardWish
+         * @description What would tell most about the camera next.
+         */
+        readonly BoardWish: {
+            /**
+             * Attitude
+             * @description Which edge to tip away from the camera, a quarter turn, or another distance
+             */
+            readonly attitude: ("left_away" | "right_away" | "top_away" | "bottom_away" | "turned" | "nearer" | "farther") | null;
+            /**
+             * Place
+             * @description Part of the picture; null: nothing is missing
+             */
+            readonly place: ("upper_left" | "top" | "upper_right" | "left" | "middle" | "right" | "lower_left" | "bottom" | "lower_right") | null;
+        };
+        /**
          * Brake
          * @description Stop now.
          */
@@ -2211,6 +2376,8 @@ export interface components {
          * @description One version with what it rests on.
          */
         readonly CalibrationDetail: {
+            /** @description Null: not of a camera, or its numbers come from elsewhere */
+            readonly camera_evidence?: components["schemas"]["CameraEvidence"] | null;
             /**
              * Error
              * @description What it misses on data held back, in mm, (camera) px or (force) N; null: not measured
@@ -2321,6 +2488,36 @@ export interface components {
              */
             readonly sockets?: readonly components["schemas"]["Calibration"][];
             readonly switches?: components["schemas"]["Calibration"] | null;
+        };
+        /**
+         * CameraEvidence
+         * @description What a calibration of the camera rests on.
+         */
+        readonly CameraEvidence: {
+            /**
+             * Check Px
+             * @description The same on pictures that were held back
+             */
+            readonly check_px: number;
+            /**
+             * Coverage
+             * @description How many corners were in each cell of a grid over the picture, by rows
+             */
+            readonly coverage: readonly (readonly number[])[];
+            /**
+             * Rms Px
+             * @description Root mean square residual of all corners
+             */
+            readonly rms_px: number;
+            /**
+             * Sigma
+             * @description Standard deviation of each number
+             */
+            readonly sigma: {
+                readonly [key: string]: number;
+            };
+            /** Views */
+            readonly views: readonly components["schemas"]["CameraViewRecord"][];
         };
         /**
          * CameraInspection
@@ -2448,6 +2645,23 @@ export interface components {
             readonly width: number;
         };
         /**
+         * CameraRoutineRequest
+         * @description Calibrate the camera with the printed board, held before it by hand; the robot stands.
+         */
+        readonly CameraRoutineRequest: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly kind: "camera";
+            /**
+             * Square Mm
+             * @description Measured side of a square of the printed board
+             * @default 24
+             */
+            readonly square_mm?: number;
+        };
+        /**
          * CameraValues
          * @description The camera's own numbers.
          */
@@ -2458,6 +2672,29 @@ export interface components {
              * @enum {string}
              */
             readonly kind: "camera";
+        };
+        /**
+         * CameraViewRecord
+         * @description One picture of the board, and how it fits to the calibration.
+         */
+        readonly CameraViewRecord: {
+            /** Distance Mm */
+            readonly distance_mm: number;
+            /**
+             * Rms Px
+             * @description Root mean square residual of its corners
+             */
+            readonly rms_px: number;
+            /**
+             * Tilt Rad
+             * @description Between the board and the plane of the picture
+             */
+            readonly tilt_rad: number;
+            /**
+             * Used
+             * @description False: it does not fit to the others and was left out
+             */
+            readonly used: boolean;
         };
         /**
          * ChargePoint
@@ -3538,6 +3775,57 @@ export interface components {
             readonly uptime_s: number;
             /** Version */
             readonly version: string;
+        };
+        /**
+         * HoldBoard
+         * @description Hold the calibration board before the camera; the hand goes there in a moment.
+         */
+        readonly HoldBoard: {
+            /**
+             * Distance Mm
+             * @default 380
+             */
+            readonly distance_mm?: number;
+            /**
+             * Down
+             * @description The same from the top to the bottom
+             * @default 0
+             */
+            readonly down?: number;
+            /**
+             * Left Away Deg
+             * @description Its left edge is tipped away from the camera
+             * @default 0
+             */
+            readonly left_away_deg?: number;
+            /**
+             * Right
+             * @description Its middle in the picture: -1 left edge, 1 right
+             * @default 0
+             */
+            readonly right?: number;
+            /**
+             * Top Away Deg
+             * @description Its upper edge is tipped away from the camera
+             * @default 0
+             */
+            readonly top_away_deg?: number;
+            /**
+             * Turn Deg
+             * @description In the plane of the picture, clockwise
+             * @default 0
+             */
+            readonly turn_deg?: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "hold";
+            /**
+             * Within S
+             * @default 0.7
+             */
+            readonly within_s?: number;
         };
         /**
          * InsertionBand
@@ -4997,6 +5285,17 @@ export interface components {
             readonly p256dh: string;
         };
         /**
+         * PutBoardAway
+         * @description Take the board away.
+         */
+        readonly PutBoardAway: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            readonly type: "away";
+        };
+        /**
          * Quantity
          * @description What is compared.
          * @enum {string}
@@ -5307,7 +5606,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            readonly kind: "robot" | "socket" | "check" | "switches" | "play" | "belts" | "force";
+            readonly kind: "camera" | "robot" | "socket" | "check" | "switches" | "play" | "belts" | "force";
             /** Looks */
             readonly looks: readonly components["schemas"]["RoutineLook"][];
             /** @description Why it stands still, or has failed */
@@ -5325,7 +5624,7 @@ export interface components {
             readonly state: "running" | "interrupted" | "finished" | "failed" | "cancelled";
             /**
              * Total
-             * @description Places to look from; 0 until they are chosen
+             * @description Places to look from, or views; 0 until known
              */
             readonly total: number;
             /** @description Of what came of it */
@@ -5358,7 +5657,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            readonly kind: "robot" | "socket" | "check" | "switches" | "play" | "belts" | "force";
+            readonly kind: "camera" | "robot" | "socket" | "check" | "switches" | "play" | "belts" | "force";
             /**
              * Needs Label
              * @description A car with a label has to stand before the robot
@@ -5560,6 +5859,14 @@ export interface components {
             readonly storage?: components["schemas"]["Problem"] | null;
             /** Version */
             readonly version: string;
+        };
+        /**
+         * SimulatedBoardNow
+         * @description What the simulated hand does.
+         */
+        readonly SimulatedBoardNow: {
+            /** @description Where it holds the board, or brings it; null: away */
+            readonly held: components["schemas"]["HoldBoard"] | null;
         };
         /**
          * SimulatedCarNow
@@ -7587,6 +7894,7 @@ export interface operations {
                 content: {
                     /**
                      * @example {
+                     *       "camera_evidence": null,
                      *       "error": 0.034,
                      *       "error_in_use": 2.41,
                      *       "evidence": {
@@ -7745,6 +8053,30 @@ export interface operations {
             readonly default: components["responses"]["ProblemDefault"];
         };
     };
+    readonly getBoardSheet: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The sheet */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "application/pdf": string;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
     readonly listAccuracyChecks: {
         readonly parameters: {
             readonly query?: {
@@ -7797,7 +8129,9 @@ export interface operations {
                      *               "y_mm": 335
                      *             }
                      *           ],
-                     *           "repeatability_mm": 0.094
+                     *           "remarks": [],
+                     *           "repeatability_mm": 0.094,
+                     *           "verdict": "good"
                      *         }
                      *       ],
                      *       "next_cursor": null
@@ -8194,7 +8528,7 @@ export interface operations {
         };
         readonly requestBody: {
             readonly content: {
-                readonly "application/json": components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"] | components["schemas"]["SwitchesRoutineRequest"] | components["schemas"]["PlayRoutineRequest"] | components["schemas"]["BeltsRoutineRequest"] | components["schemas"]["ForceRoutineRequest"];
+                readonly "application/json": components["schemas"]["CameraRoutineRequest"] | components["schemas"]["RobotRoutineRequest"] | components["schemas"]["SocketRoutineRequest"] | components["schemas"]["CheckRoutineRequest"] | components["schemas"]["SwitchesRoutineRequest"] | components["schemas"]["PlayRoutineRequest"] | components["schemas"]["BeltsRoutineRequest"] | components["schemas"]["ForceRoutineRequest"];
             };
         };
         readonly responses: {
@@ -8254,6 +8588,167 @@ export interface operations {
             readonly 408: components["responses"]["Problem408"];
             readonly 409: components["responses"]["Problem409"];
             readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly watchBoard: {
+        readonly parameters: {
+            readonly query?: {
+                /** @description Number of the one that is known already */
+                readonly after?: number;
+            };
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "corners_px": [
+                     *         [
+                     *           412.3,
+                     *           288.1
+                     *         ],
+                     *         [
+                     *           501.7,
+                     *           290.4
+                     *         ],
+                     *         [
+                     *           413,
+                     *           377.9
+                     *         ]
+                     *       ],
+                     *       "coverage": [
+                     *         [
+                     *           0,
+                     *           2,
+                     *           9,
+                     *           12,
+                     *           12,
+                     *           8,
+                     *           3,
+                     *           0
+                     *         ],
+                     *         [
+                     *           1,
+                     *           6,
+                     *           14,
+                     *           17,
+                     *           16,
+                     *           12,
+                     *           5,
+                     *           1
+                     *         ],
+                     *         [
+                     *           2,
+                     *           8,
+                     *           16,
+                     *           20,
+                     *           19,
+                     *           14,
+                     *           4,
+                     *           0
+                     *         ],
+                     *         [
+                     *           2,
+                     *           7,
+                     *           15,
+                     *           19,
+                     *           18,
+                     *           11,
+                     *           2,
+                     *           0
+                     *         ],
+                     *         [
+                     *           1,
+                     *           5,
+                     *           11,
+                     *           14,
+                     *           12,
+                     *           6,
+                     *           0,
+                     *           0
+                     *         ],
+                     *         [
+                     *           0,
+                     *           2,
+                     *           6,
+                     *           8,
+                     *           5,
+                     *           1,
+                     *           0,
+                     *           0
+                     *         ]
+                     *       ],
+                     *       "height_px": 1232,
+                     *       "notice": "taken",
+                     *       "outline_px": [
+                     *         [
+                     *           412.3,
+                     *           288.1
+                     *         ],
+                     *         [
+                     *           501.7,
+                     *           290.4
+                     *         ],
+                     *         [
+                     *           413,
+                     *           377.9
+                     *         ]
+                     *       ],
+                     *       "sequence": 57,
+                     *       "taken": 7,
+                     *       "wanted": 18,
+                     *       "width_px": 1640,
+                     *       "wish": {
+                     *         "attitude": "left_away",
+                     *         "place": "lower_right"
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["BoardLook"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getBoardPicture: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path: {
+                readonly sequence: number;
+            };
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description The picture */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    readonly "image/jpeg": unknown;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 404: components["responses"]["Problem404"];
             readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
@@ -11205,6 +11700,92 @@ export interface operations {
             };
             readonly 401: components["responses"]["Problem401"];
             readonly 403: components["responses"]["Problem403"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getSimulatedBoard: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "held": {
+                     *         "distance_mm": 380,
+                     *         "down": 0,
+                     *         "left_away_deg": 25,
+                     *         "right": -0.5,
+                     *         "top_away_deg": 0,
+                     *         "turn_deg": 0,
+                     *         "type": "hold",
+                     *         "within_s": 0.7
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["SimulatedBoardNow"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly commandSimulatedBoard: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody: {
+            readonly content: {
+                readonly "application/json": components["schemas"]["HoldBoard"] | components["schemas"]["PutBoardAway"];
+            };
+        };
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "held": {
+                     *         "distance_mm": 380,
+                     *         "down": 0,
+                     *         "left_away_deg": 25,
+                     *         "right": -0.5,
+                     *         "top_away_deg": 0,
+                     *         "turn_deg": 0,
+                     *         "type": "hold",
+                     *         "within_s": 0.7
+                     *       }
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["SimulatedBoardNow"];
+                };
+            };
+            readonly 400: components["responses"]["Problem400"];
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
+            readonly 408: components["responses"]["Problem408"];
+            readonly 409: components["responses"]["Problem409"];
+            readonly 413: components["responses"]["Problem413"];
+            readonly 422: components["responses"]["Problem422"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

@@ -5,6 +5,7 @@ import { say } from "./words";
 
 /** Questions by their code, each with a place for every number in its text. */
 const QUESTIONS = {
+  camera_enough: /^End when /,
   belts_marked: /^Mark /,
   belts_left: /^How far /,
   belts_right: /^How far /,

@@ -1,7 +1,10 @@
 import { formatDate, formatDuration, formatNumber } from "@/format";
-import { checks, close } from "./desk";
+import { busy, checks, close, downloadReport } from "./desk";
 import { BeforeAfter } from "./plots/before-after";
 import { NinePlaces } from "./plots/nine-places";
+import { GradeChip } from "./overview";
+import { Sentences } from "./sentences";
+import { remarkOf } from "./translated";
 import type { AccuracyCheck } from "./types";
 import { say } from "./words";
 
@@ -31,9 +34,9 @@ export function CheckView({ id, title, onClose = close }: Props) {
       )}
       <div class="calibration-actions">
         {check !== undefined && (
-          <a class="button calibration-link" href={`/api/v1/calibrations/checks/${encodeURIComponent(id)}/report.pdf`} download>
+          <button type="button" class="button" disabled={busy.value} onClick={() => void downloadReport(check)}>
             {say.checks.report}
-          </a>
+          </button>
         )}
         <button type="button" class="button" onClick={onClose}>
           {say.ended.close}
@@ -50,14 +53,23 @@ interface CheckProps {
 }
 
 function Check({ check, before, title }: CheckProps) {
-  const { places, left_out, made_at, made_by, duration_s, calibration_id } = check;
+  const { places, left_out, made_at, made_by, duration_s, calibration_id, verdict, remarks } = check;
   return (
     <>
-      <h3>{title ?? `${say.checks.title}, ${formatDate(made_at)}`}</h3>
+      <header>
+        <h3>{title ?? `${say.checks.title}, ${formatDate(made_at)}`}</h3>
+        {verdict != null && <GradeChip grade={verdict} />}
+      </header>
+      {verdict != null && (
+        <p>
+          <strong>{say.checks.verdicts[verdict]}</strong>
+        </p>
+      )}
       <p>
         {say.checks.worst}: <strong>{`${formatNumber(check.accuracy_mm, 2)} mm`}</strong>,{" "}
         {calibration_id === null ? say.checks.asDrawn : say.checks.withVersion}.
       </p>
+      <Sentences title={say.checks.mend} sentences={(remarks ?? []).map(remarkOf)} />
       {FIGURES.map(([name, key]) => (
         <BeforeAfter
           key={name}

@@ -4,7 +4,9 @@ import { call, listVehicles, Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { Vehicle } from "@/api/wire";
 import { store } from "@/live/page";
+import { download } from "@/technician/parts/download";
 import { keep, kept } from "@/technician/parts/kept";
+import { fetchReport } from "./report";
 import type {
   AccuracyCheck,
   AccuracyCheckPage,
@@ -113,6 +115,14 @@ export const activate = (id: string, acceptWorse: boolean): Promise<void> =>
 export function rollBack({ kind, values }: Calibration): Promise<void> {
   const vehicle_id = values.kind === "socket" ? values.vehicle_id : null;
   return act("/calibrations/roll-back", { kind, vehicle_id });
+}
+
+/** The report on paper; a refusal is told like any other. */
+export async function downloadReport({ id, made_at }: AccuracyCheck): Promise<void> {
+  if (busy.value) return;
+  busy.value = true;
+  await attempt(async () => download(await fetchReport(id), `plugpilot-check-${made_at.slice(0, 10)}.pdf`));
+  busy.value = false;
 }
 
 async function act(path: string, body?: unknown): Promise<void> {

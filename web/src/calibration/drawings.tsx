@@ -1,7 +1,7 @@
 /** Small drawings of what is to be prepared: the robot on its wall, the car, the label. */
 import type { ComponentChildren } from "preact";
 
-export type DrawingName = "looks" | "mated" | "nine" | "switches" | "play" | "belts" | "force";
+export type DrawingName = "looks" | "mated" | "nine" | "switches" | "play" | "belts" | "force" | "board";
 
 const DRAWINGS: Readonly<Record<DrawingName, ComponentChildren>> = {
   // The label in the middle, seen from many places.
@@ -18,6 +18,17 @@ const DRAWINGS: Readonly<Record<DrawingName, ComponentChildren>> = {
         <circle cx="44" cy="81" r="3" />
       </g>
       <Label x={38} y={56} />
+    </>
+  ),
+  // Hands hold the board at an angle.
+  board: (
+    <>
+      <path d="M22 18 68 10v62L22 64z" />
+      <path
+        class="label-fill"
+        d="m22 18 12-2v15l-12 1zM45 14l12-2v18l-12 1zM34 31l11-1v16l-11 1zM57 30l11-1v19l-11-1zM22 32v0M22 47l12 0v15l-12-3zM45 47l12 0v20l-12-3z"
+      />
+      <path class="thin" d="M14 30v24m-5-6 5 6 5-6M78 54V30m-5 6 5-6 5 6M30 80h28m-6-5 6 5-6 5" />
     </>
   ),
   // The plug all the way in the socket, the label beside it.

@@ -45,6 +45,11 @@ export function Guide({ kind }: { kind: RoutineKind }) {
           <li key={each}>{each}</li>
         ))}
       </ol>
+      {kind === "camera" && (
+        <a class="button calibration-link" href="/api/v1/calibrations/board.pdf" download>
+          {say.board.sheet}
+        </a>
+      )}
       {description.plugIn && (
         <a class="button calibration-link" href="#jog">
           {say.guide.jog}

@@ -37,6 +37,9 @@ const NAME_OF: Readonly<Record<string, Name>> = {
   offset_n: "offset_n",
   lag_slide_mm: "following_mm",
   force_scale: "scale",
+  fx: "fx",
+  cx: "cx",
+  cy: "cy",
 };
 /** Of these there is nothing else to be seen. */
 const MEASURED: readonly string[] = ["switches", "play", "force"];
@@ -65,7 +68,11 @@ export function Figures({ figures }: { figures: readonly Figure[] }) {
 /** Every number of a version, with its standard deviation where that is known. */
 export function Numbers({ version, folded }: { version: CalibrationDetail; folded: boolean }) {
   const beside = Object.entries(version.values).filter(([name]) => name.includes("sigma"));
-  const sigma: Record<string, unknown> = { ...version.evidence?.sigma, ...Object.fromEntries(beside) };
+  const sigma: Record<string, unknown> = {
+    ...version.evidence?.sigma,
+    ...version.camera_evidence?.sigma,
+    ...Object.fromEntries(beside),
+  };
   return (
     <details class="calibration-numbers" open={!folded && MEASURED.includes(version.kind)}>
       <summary>{say.numbers.title}</summary>

@@ -129,7 +129,6 @@ function Versions() {
 
 /** The grade, and whether it counts. */
 export function Chips({ version }: { version: Calibration }) {
-  const tone = { good: "good", usable: "ask", bad: "problem" } as const;
   return (
     <span class="chips">
       {version.in_force && (
@@ -137,9 +136,18 @@ export function Chips({ version }: { version: Calibration }) {
           {say.inUse.chip}
         </span>
       )}
-      <span class="chip" data-tone={tone[version.grade]}>
-        {say.grades[version.grade]}
-      </span>
+      <GradeChip grade={version.grade} />
+    </span>
+  );
+}
+
+const TONES = { good: "good", usable: "ask", bad: "problem" } as const;
+
+/** What it is worth, in a word. */
+export function GradeChip({ grade }: { grade: Calibration["grade"] }) {
+  return (
+    <span class="chip" data-tone={TONES[grade]}>
+      {say.grades[grade]}
     </span>
   );
 }
@@ -158,6 +166,7 @@ function Checks() {
                 <strong>{formatDate(check.made_at)}</strong> {check.made_by}
                 <small>{inShort(check)}</small>
               </span>
+              {check.verdict != null && <GradeChip grade={check.verdict} />}
             </button>
           </li>
         ))}

@@ -41,6 +41,14 @@ const repeated = { path: ["approaches"], least: 3, most: 30, whole: true } as co
 
 /** In the order in which a new robot wants them. */
 export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
+  camera: {
+    drawing: "board",
+    needsLabel: false,
+    looks: 15,
+    lookTakes_s: 15,
+    plugIn: false,
+    fields: [{ name: "square", path: ["square_mm"], initial: 24, least: 5, most: 200 }],
+  },
   switches: {
     drawing: "switches",
     needsLabel: true,
@@ -110,6 +118,7 @@ export const ROUTINES: Readonly<Record<RoutineKind, Description>> = {
 
 /** The same order in groups: a list of all would be long on a phone. */
 export const GROUPS = {
+  camera: ["camera"],
   axes: ["switches", "play", "belts"],
   whole: ["robot", "force"],
   use: ["socket", "check"],

@@ -18,6 +18,8 @@ export const DOINGS = {
   first: "Going to the first place.",
   second: "Going to the second place.",
   rule: "Waiting for what the rule says.",
+  board: "Watching for the board.",
+  camera: "Working out the camera from the pictures.",
   kept: "The calibration is done. Nobody uses it yet.",
   checked: "The check is done.",
 } as const;
@@ -68,6 +70,18 @@ const REMARKS = {
   lag: /^The (left|right) carriage lags by ([\d.]+) mm/,
   friction: /^The slide takes (-?[\d.]+) N to move freely/,
   offset: /^Without any force the motor current shows (-?[\d.]+) N/,
+  edges: /^At the edges of the workspace the plug may still be ([\d.]+) mm off/,
+  corners: /^The corners are ([\d.]+) px off/,
+  focal: /^The focal length is sure to ([\d.]+) %/,
+  centre: /^The centre is sure to ([\d.]+) px/,
+  cover: /^The board has been in ([\d.]+) % of the picture/,
+  angle: /^Only (\d+) pictures show the board at an angle; take (\d+)/,
+  held: /^Pictures that were held back fit worse \(([\d.]+) px\)/,
+  leftOut: /^(\d+) pictures had to be left out/,
+  places: /^AP \+ RP is up to ([\d.]+) mm; ([\d.]+) mm/,
+  mostPlay: /^Most of it is play/,
+  off: /^The places are off, but repeat/,
+  unsteady: /^The places do not repeat/,
   scale: /^The shown force is ([\d.]+) times the true one/,
 } as const;
 

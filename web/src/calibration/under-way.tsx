@@ -2,13 +2,14 @@ import { may } from "@/access/session";
 import { formatDate, formatDuration } from "@/format";
 import { TroubleWords } from "@/technician/parts/trouble";
 import { busy, cancel, resume } from "./desk";
+import { BoardWatch } from "./board/watch";
 import { useTimeLeft } from "./pace";
 import { CameraSwitch } from "./picture";
 import { LookMap } from "./plots/look-map";
 import { QuestionForm } from "./question";
 import { ROUTINES } from "./routines";
 import { doingOf } from "./translated";
-import type { Routine } from "./types";
+import type { Routine, RoutineKind } from "./types";
 import { say } from "./words";
 
 const ROUND_S = 5;
@@ -22,23 +23,25 @@ export function UnderWay({ routine }: { routine: Routine }) {
   const asks = interrupted ? null : (routine.asks ?? null);
   const { needsLabel, plugIn } = ROUTINES[kind];
   const name = say.routines[kind].name;
+  const watching = kind === "camera";
   return (
-    <section class="calibration-run" data-tone={interrupted || asks !== null ? "ask" : "busy"}>
+    <section class="calibration-run" data-tone={interrupted || (asks !== null && !watching) ? "ask" : "busy"}>
       <h3>{name}</h3>
-      {asks === null ? (
+      {asks === null || watching ? (
         <p role="status">
           <strong>{interrupted ? say.underWay.interrupted : doingOf(routine.doing)}</strong>
         </p>
       ) : (
         <QuestionForm key={asks.code} asks={asks} />
       )}
+      {watching && !interrupted && <BoardWatch asks={asks} />}
       <progress max={total} value={Math.min(done, total)} aria-label={name} />
       <p class="calibration-pace">
-        <span>{needsLabel ? say.underWay.place(done, total) : say.underWay.step(done, total)}</span>
-        {!interrupted && asks === null && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
+        <span>{counted(kind, done, total)}</span>
+        {!interrupted && asks === null && !watching && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
       </p>
       {problem !== null && <TroubleWords trouble={problem} />}
-      {interrupted && needsLabel && !plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
+      {interrupted && (needsLabel || watching) && !plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
       {looks.length > 1 && !plugIn && <LookMap looks={looks} />}
       {needsLabel && <CameraSwitch />}
       <p class="soft small">{say.underWay.by(begun_by, formatDate(begun_at))}</p>
@@ -59,4 +62,9 @@ export function UnderWay({ routine }: { routine: Routine }) {
       </div>
     </section>
   );
+}
+
+function counted(kind: RoutineKind, done: number, total: number): string {
+  if (kind === "camera") return say.board.views(done, total);
+  return ROUTINES[kind].needsLabel ? say.underWay.place(done, total) : say.underWay.step(done, total);
 }

@@ -6,7 +6,10 @@ import { activate, busy, close, edition, open, putAway, readVersion, rollBack, t
 import { Figures, Numbers } from "./numbers";
 import { Chips, nameOf, unitOf } from "./overview";
 import { BeforeAfter } from "./plots/before-after";
+import { Pictures } from "./plots/pictures";
 import { Residuals } from "./plots/residuals";
+import { TipDoubt } from "./plots/tip-doubt";
+import { Sentences } from "./sentences";
 import { remarkOf, unseenOf } from "./translated";
 import type { CalibrationDetail, Figure } from "./types";
 import { say } from "./words";
@@ -56,7 +59,7 @@ interface VersionProps {
 }
 
 function Version({ version, title, figures }: VersionProps) {
-  const { grade, in_force, error, error_in_use, made_by, made_at, remarks, evidence, values, kind } = version;
+  const { grade, in_force, error, error_in_use, made_by, made_at, remarks, evidence, camera_evidence, values, kind } = version;
   const unit = unitOf(version);
   return (
     <>
@@ -73,11 +76,15 @@ function Version({ version, title, figures }: VersionProps) {
         <BeforeAfter title={say.result.compared[kind]} unit={unit} before={error_in_use} after={error} />
       )}
       <Sentences title={say.result.remarks} sentences={remarks.map(remarkOf)} />
+      {evidence !== null && <TipDoubt evidence={evidence} />}
+      {camera_evidence != null && <Pictures evidence={camera_evidence} />}
       {evidence !== null && values.kind === "robot" && <Residuals evidence={evidence} values={values} />}
       {evidence !== null && <Sentences title={say.result.unseen} sentences={evidence.unseen.map(unseenOf)} />}
       <Numbers version={version} folded={figures.length > 0} />
       <p class="soft small">
         {say.result.madeBy(made_by, formatDate(made_at))}
+        {camera_evidence != null &&
+          ` · ${say.board.restsOn(camera_evidence.views.length, formatNumber(camera_evidence.rms_px, 2))}`}
         {evidence !== null && ` · ${say.result.looks(evidence.looks.length, formatDuration(evidence.duration_s))}`}
       </p>
     </>
@@ -99,20 +106,6 @@ function Taught({ version: { error, error_in_use } }: { version: CalibrationDeta
         </div>
       ))}
     </dl>
-  );
-}
-
-function Sentences({ title, sentences }: { title: string; sentences: readonly string[] }) {
-  if (sentences.length === 0) return null;
-  return (
-    <div class="calibration-remarks">
-      <h4>{title}</h4>
-      <ul>
-        {sentences.map((each) => (
-          <li key={each}>{each}</li>
-        ))}
-      </ul>
-    </div>
   );
 }
 
@@ -160,10 +153,13 @@ function warningOf(version: CalibrationDetail): string | null {
   const mine = numberOr(refused?.[`error_${unit}`], version.error);
   const other = numberOr(refused?.[`in_force_${unit}`], version.error_in_use);
   if (mine === null) return say.result.neverMeasured;
-  if (other === null || mine <= other) return null;
+  if (other === null || mine <= other + (TIE[version.kind] ?? 0)) return null;
   const [a, b, more] = [mine, other, mine - other].map((each) => formatNumber(each, 3));
   return say.result.worse(a!, b!, more!, unit);
 }
+
+/** Differences that are chance, as the server takes them. */
+const TIE: Partial<Record<CalibrationDetail["kind"], number>> = { camera: 0.01 };
 
 const numberOr = (value: unknown, otherwise: number | null): number | null =>
   typeof value === "number" ? value : otherwise;

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.labels.board_sheet import BoardLayout
+from server.labels.board_layout import BoardLayout
 from server.simulated_board import board_pictures
 
 Picture = tuple[str, NDArray[np.uint8]]

@@ -16,7 +16,7 @@ from server.calibration.camera.errors import (
 from server.calibration.camera.solve import CameraSolution, solve_camera
 from server.calibration.camera.verdict import judge
 from server.calibration.grade import Grade
-from server.labels.board_sheet import BoardLayout
+from server.labels.board_layout import BoardLayout
 from server.simulated_board import board_pictures
 from tests.server.calibration.camera.conftest import LAYOUT, TRUTH, Picture
 

@@ -218,8 +218,8 @@ def test_a_stroke_that_meets_something_ends_gently() -> None:
 def test_all_routines_are_described() -> None:
     async def scenario(_: Scene, client: httpx.AsyncClient) -> None:
         items = (await client.get("calibrations/routines")).json()["routines"]
-        assert [item["kind"] for item in items][:3] == ["switches", "play", "belts"]
-        assert len(items) == 7
+        assert [item["kind"] for item in items][:3] == ["camera", "switches", "play"]
+        assert len(items) == 8
         for item in items:
             request = {s["name"]: s["usual"] for s in item["settings"] if s["usual"] is not None}
             answer = await client.post(

@@ -1,4 +1,4 @@
-/** Asks for one inspection after the other, each with its picture. */
+/** Asks for one look of the camera after the other, each with its picture. */
 import { call } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { CameraInspection } from "@/api/wire";
@@ -7,32 +7,35 @@ import { poll } from "../parts/poll";
 const PATIENCE_MS = 6000;
 const FORGET_AFTER_MS = 500;
 
-/** What is found and the picture it was found in; the two belong together. */
-export interface Shown {
-  readonly inspection: CameraInspection;
+/** A look and the picture it was made in; the two belong together. */
+export interface Pictured<Look> {
+  readonly look: Look;
   /** Address of the picture, good until the next one is shown. */
   readonly picture: string;
 }
 
-export interface Watcher {
-  show(shown: Shown): void;
+export interface Watcher<Look> {
+  show(shown: Pictured<Look>): void;
   fail(trouble: Trouble): void;
 }
 
-/** Watches until it is told to end. */
-export function follow(watcher: Watcher): () => void {
+/**
+ * Watches until it is told to end.
+ *
+ * @param root Where looks are asked for; their pictures are below it, by their numbers.
+ */
+export function followPictures<Look extends { readonly sequence: number }>(root: string, watcher: Watcher<Look>): () => void {
   let known = 0;
   let address = "";
   let ended = false;
   const ask = async (): Promise<void> => {
-    const path = `/camera/inspection?after=${String(known)}`;
-    const inspection = await call<CameraInspection>(path, { patienceMs: PATIENCE_MS });
-    known = inspection.sequence;
-    const picture = await pictureOf(known);
+    const look = await call<Look>(`${root}?after=${String(known)}`, { patienceMs: PATIENCE_MS });
+    known = look.sequence;
+    const picture = await pictureOf(root, known);
     if (ended || picture === null) return;
     forgetLater(address);
     address = URL.createObjectURL(picture);
-    watcher.show({ inspection, picture: address });
+    watcher.show({ look, picture: address });
   };
   const end = poll(ask, (trouble) => {
     known = 0;
@@ -45,14 +48,28 @@ export function follow(watcher: Watcher): () => void {
   };
 }
 
+/** What is found in the camera's pictures, and the picture it was found in. */
+export interface Shown {
+  readonly inspection: CameraInspection;
+  readonly picture: string;
+}
+
+/** Watches the camera until it is told to end. */
+export function follow(watcher: { show(shown: Shown): void; fail(trouble: Trouble): void }): () => void {
+  return followPictures<CameraInspection>("/camera/inspection", {
+    show: ({ look, picture }) => watcher.show({ inspection: look, picture }),
+    fail: (trouble) => watcher.fail(trouble),
+  });
+}
+
 function forgetLater(address: string): void {
   if (address !== "") setTimeout(() => URL.revokeObjectURL(address), FORGET_AFTER_MS);
 }
 
 /** The picture; null when a newer one has taken its place meanwhile, or nobody answered. */
-async function pictureOf(sequence: number): Promise<Blob | null> {
+async function pictureOf(root: string, sequence: number): Promise<Blob | null> {
   try {
-    const response = await fetch(`/api/v1/camera/inspection/${String(sequence)}.jpg`, {
+    const response = await fetch(`/api/v1${root}/${String(sequence)}.jpg`, {
       signal: AbortSignal.timeout(PATIENCE_MS),
     });
     return response.ok ? await response.blob() : null;

@@ -15,7 +15,9 @@ export const BENCH_PROBLEM_CODES = [
   "fit_failed", "tilt_ambiguous", "label_cut_off", "edges_do_not_fit", "edges_disagree",
   "modules_disagree", "distance_implausible", "tilt_implausible", "label_jumped",
   "calibration_no_question", "calibration_answer", "calibration_lost", "calibration_slide_hit",
-  "calibration_no_spring", "calibration_check_not_found",
+  "calibration_no_spring", "calibration_check_not_found", "camera_calibration",
+  "calibration_no_board", "calibration_mixed_resolution", "calibration_wrong_board",
+  "calibration_diverged", "calibration_board_blurred", "calibration_too_few_views",
 ] as const;
 
 type Code = (typeof BENCH_PROBLEM_CODES)[number];

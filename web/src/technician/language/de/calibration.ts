@@ -1,4 +1,5 @@
 import type { CalibrationWords } from "../types";
+import { board } from "./board";
 import { fieldHints, fields, routines } from "./routines";
 import { doing, hints, questions, remarks } from "./said";
 
@@ -30,7 +31,7 @@ export const calibration: CalibrationWords = {
   },
   begin: "Messen und prüfen",
   order: "Ein neuer Roboter will sie in dieser Reihenfolge.",
-  groups: { axes: "Eine Achse nach der anderen", whole: "Der Roboter als Ganzes", use: "Lehren und prüfen" },
+  groups: { camera: "Die Kamera", axes: "Eine Achse nach der anderen", whole: "Der Roboter als Ganzes", use: "Lehren und prüfen" },
   about: (minutes) => `etwa ${String(minutes)} min`,
   routines,
   guide: {
@@ -46,6 +47,7 @@ export const calibration: CalibrationWords = {
   },
   fields,
   fieldHints,
+  board,
   picture: { show: "Kamera zeigen", hide: "Kamera verbergen" },
   underWay: {
     place: (done, total) => `Stelle ${String(done)} von ${String(total)}`,
@@ -116,6 +118,15 @@ export const calibration: CalibrationWords = {
     madeBy: (name, at) => `${name}, ${at}`,
     looks: (count, time) => `${String(count)} Blicke in ${time}`,
   },
+  tip: {
+    title: "Was die Steckerspitze noch verfehlen kann",
+    text: (likely, most) =>
+      `Im ganzen Arbeitsraum: ebenso wahrscheinlich weniger als mehr als ${likely} mm, in 95 von 100 Fällen höchstens ${most} mm.`,
+    likelyOnly: (likely) => `Im ganzen Arbeitsraum: ebenso wahrscheinlich weniger als mehr als ${likely} mm.`,
+    likely: "in der Hälfte der Fälle",
+    most: "in 95 von 100 Fällen",
+    scale: (length) => `Der Strich ist ${length} mm lang`,
+  },
   residuals: {
     title: "Was an jeder Stelle übrig bleibt",
     alt: (count, middle, most) =>
@@ -163,6 +174,12 @@ export const calibration: CalibrationWords = {
   },
   versions: { title: "Alle Fassungen", none: "Noch ist nichts kalibriert.", older: "Ältere zeigen" },
   checks: {
+    verdicts: {
+      good: "Gut: genau genug für Dosen.",
+      usable: "Brauchbar: den Rest gleicht die Kamera auf dem letzten Stück aus.",
+      bad: "Schlecht: für Dosen zu weit daneben.",
+    },
+    mend: "Was zu tun ist",
     title: "Prüfungen",
     none: "Noch ist nichts geprüft.",
     report: "Bericht herunterladen (PDF)",

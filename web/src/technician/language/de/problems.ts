@@ -46,5 +46,12 @@ export const problems: BenchProblems = {
     calibration_slide_hit: ["Der Stecker ist auf etwas gestoßen", "Machen Sie den Weg vor dem Stecker frei, oder wählen Sie einen kürzeren Hub. Dann geht es weiter."],
     calibration_no_spring: ["Der Stecker hat keine Feder gefunden", "Stellen Sie die Feder gerade vor den Stecker, in seine Reichweite. Dann geht es weiter."],
     calibration_check_not_found: ["Diese Prüfung gibt es nicht", "Sehen Sie in der Liste der Prüfungen nach."],
+    camera_calibration: ["Die Kamera lässt sich so nicht kalibrieren", "Nehmen Sie mehr Bilder der ganzen Tafel auf, von nah und fern und schräg."],
+    calibration_no_board: ["Die Tafel war nicht zu sehen", "Halten Sie die ganze Tafel vor die Kamera, bei gutem Licht. Dann geht es weiter."],
+    calibration_mixed_resolution: ["Die Bilder sind verschieden groß", "Nehmen Sie alle mit derselben Kamera in der Bildgröße auf, die der Roboter benutzt."],
+    calibration_wrong_board: ["Das ist eine andere Tafel", "Nehmen Sie die Tafel, die hier heruntergeladen werden kann. Dann geht es weiter."],
+    calibration_diverged: ["Die Bilder passen nicht zueinander", "Prüfen Sie, ob die Tafel eben ist und sich auf den Bildern nicht bewegt hat; nehmen Sie neue auf."],
+    calibration_board_blurred: ["Die Tafel ist unscharf", "Putzen Sie die Linse, stellen Sie den Fokus auf die Entfernung der Marken, geben Sie mehr Licht. Dann geht es weiter."],
+    calibration_too_few_views: ["Es gibt zu wenige Ansichten der Tafel", "Machen Sie weiter, halten Sie die Tafel, wie die Seite es sagt, und jedes Mal eine Sekunde still."],
   },
 };

@@ -2,6 +2,17 @@
 import type { CalibrationWords } from "../types";
 
 export const routines: CalibrationWords["routines"] = {
+  camera: {
+    name: "Kamera kalibrieren",
+    purpose: "Brennweite, Mitte und Verzeichnung, aus Bildern der gedruckten Tafel in Ihren Händen.",
+    prepare: [
+      "Drucken Sie die Tafel in Originalgröße, und kleben Sie sie auf etwas Ebenes und Steifes.",
+      "Messen Sie die Seite ihrer Quadrate, am besten über fünf davon, und tragen Sie sie hier ein.",
+      "Lassen Sie den Roboter dort stehen, wo Sie vor die Kamera kommen, und stellen Sie sich so, dass Sie diese Seite sehen. Er bewegt sich nicht.",
+    ],
+    start: "Hinsehen lassen",
+    done: "Die Kamera ist kalibriert",
+  },
   switches: {
     name: "Endschalter",
     purpose: "Wie gut sie wiederholen: sucht mehrmals die Position und schaut, wo der Roboter dann steht.",
@@ -96,6 +107,7 @@ export const fields: CalibrationWords["fields"] = {
   stroke: "Länge eines Hubs, mm",
   spring: "Federrate, N/mm",
   springKnown: "Federrate bekannt auf ± %",
+  square: "Seite eines Quadrats, mm",
 };
 
 export const fieldHints: CalibrationWords["fieldHints"] = {

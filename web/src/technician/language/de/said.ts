@@ -16,6 +16,8 @@ export const doing: CalibrationWords["doing"] = {
   back: "Die Marke wird mit zurückgezogenem Stecker angesehen.",
   kept: "Die Kalibrierung ist fertig. Noch benutzt sie niemand.",
   checked: "Die Prüfung ist fertig.",
+  board: "Die Tafel wird gesucht.",
+  camera: "Die Kamera wird aus den Bildern ausgerechnet.",
   first: "Der Roboter fährt an die erste Stelle.",
   second: "Der Roboter fährt an die zweite Stelle.",
   rule: "Es fehlt, was der Maßstab sagt.",
@@ -42,6 +44,18 @@ export const remarks: CalibrationWords["remarks"] = {
   friction: (a) => `Der Schieber braucht ${a} N, um frei zu laufen: reinigen und fetten Sie seine Spindel.`,
   offset: (a) => `Ohne Kraft zeigt der Motorstrom ${a} N: etwas zieht am Schieber, etwa das Kabel.`,
   scale: (a) => `Die gezeigte Kraft ist das ${a}-Fache der wahren: berichtigen Sie in den Einstellungen der Platine die Kraft des Motors für seinen Strom.`,
+  edges: (a) => `Am Rand des Arbeitsraums kann der Stecker noch ${a} mm danebenliegen: messen Sie die Riemen über 400 mm und die Marke mit der Schieblehre, stellen Sie die Marke nahe an die Mitte des Arbeitsraums, und wiederholen Sie.`,
+  corners: (a) => `Die Ecken liegen im Mittel ${a} px daneben: ist die Tafel eben, der Fokus fest, und nichts unscharf?`,
+  focal: (a) => `Die Brennweite ist nur auf ${a} % sicher: nehmen Sie mehr Bilder schräg und aus verschiedenen Abständen auf.`,
+  centre: (a) => `Die Mitte ist nur auf ${a} px sicher: drehen Sie die Tafel in einigen Bildern um ein Viertel, und kippen Sie sie.`,
+  cover: (a) => `Die Tafel war in ${a} % des Bildes: halten Sie sie dorthin, wo sie noch nicht war.`,
+  angle: (a, b) => `Nur ${a} Bilder zeigen die Tafel schräg; es sollen ${b} oder mehr sein.`,
+  held: (a) => `Zurückgehaltene Bilder passen schlechter (${a} px): nehmen Sie mehr Bilder auf.`,
+  leftOut: (a) => `${a} Bilder mussten weggelassen werden: hat sich die Tafel gebogen oder der Fokus verstellt?`,
+  places: (a, b) => `AP + RP ist bis zu ${a} mm; verlangt sind ${b} mm.`,
+  mostPlay: () => "Das meiste davon ist Spiel: spannen Sie die Riemen, und prüfen Sie noch einmal.",
+  off: () => "Die Stellen liegen daneben, aber immer gleich: vermessen Sie den Roboter, und prüfen Sie noch einmal.",
+  unsteady: () => "Die Stellen wiederholen sich nicht: sehen Sie nach, ob ein Schlitten klemmt.",
   unknowns: {
     left_leg: "Länge des linken Beins",
     right_leg: "Länge des rechten Beins",
@@ -61,6 +75,7 @@ export const remarks: CalibrationWords["remarks"] = {
 };
 
 export const questions: CalibrationWords["questions"] = {
+  camera_enough: () => "Hören Sie auf, wann Sie wollen: was da ist, lässt sich jetzt ausrechnen.",
   belts_marked: () => "Zeichnen Sie an der Schiene an, wo beide Schlitten stehen, und bestätigen Sie dann.",
   belts_left: () => "Wie weit ist der linke Schlitten von seinem Strich weg?",
   belts_right: () => "Wie weit ist der rechte Schlitten von seinem Strich weg?",

@@ -2,6 +2,7 @@
 import type { Questions } from "@/calibration/asked";
 import type { Hints } from "@/calibration/hinted";
 import type { Doings, Remarks } from "@/calibration/translated";
+import { board } from "./board";
 import { fieldHints, fields, routines } from "./routines";
 
 type Unit = "mm" | "px" | "N";
@@ -34,7 +35,7 @@ export const calibration = {
   },
   begin: "Measure and check",
   order: "A new robot wants them in this order.",
-  groups: { axes: "One axis at a time", whole: "The robot as a whole", use: "Teach and check" },
+  groups: { camera: "The camera", axes: "One axis at a time", whole: "The robot as a whole", use: "Teach and check" },
   about: (minutes: number): string => `about ${String(minutes)} min`,
   routines,
   guide: {
@@ -50,6 +51,7 @@ export const calibration = {
   },
   fields,
   fieldHints,
+  board,
   picture: { show: "Show the camera", hide: "Hide the camera" },
   underWay: {
     place: (done: number, total: number): string => `Place ${String(done)} of ${String(total)}`,
@@ -121,6 +123,15 @@ export const calibration = {
     madeBy: (name: string, at: string): string => `${name}, ${at}`,
     looks: (count: number, time: string): string => `${String(count)} looks in ${time}`,
   },
+  tip: {
+    title: "What the plug’s tip may still miss",
+    text: (likely: string, most: string): string =>
+      `All over the workspace: as likely as not within ${likely} mm, in 95 of 100 cases within ${most} mm.`,
+    likelyOnly: (likely: string): string => `All over the workspace: as likely as not within ${likely} mm.`,
+    likely: "as likely as not",
+    most: "in 95 of 100 cases",
+    scale: (length: string): string => `The line is ${length} mm long`,
+  },
   residuals: {
     title: "What is left over at each place",
     alt: (count: number, middle: string, most: string): string =>
@@ -172,6 +183,12 @@ export const calibration = {
     older: "Show older ones",
   },
   checks: {
+    verdicts: {
+      good: "Good: exact enough for sockets.",
+      usable: "Usable: the camera takes out the rest on the last bit of the way.",
+      bad: "Bad: too far off for sockets.",
+    },
+    mend: "What to do",
     title: "Checks",
     none: "Nothing has been checked yet.",
     report: "Download the report (PDF)",

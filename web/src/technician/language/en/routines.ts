@@ -1,6 +1,17 @@
 /** What each routine is called, wants prepared, and wants to be told. */
 
 export const routines = {
+  camera: {
+    name: "Calibrate the camera",
+    purpose: "Focal length, centre and distortion, from pictures of the printed board in your hands.",
+    prepare: [
+      "Print the board at 100 %, and glue it onto something flat and stiff.",
+      "Measure the side of its squares, best over five of them, and enter it here.",
+      "Let the robot stand where you reach the camera, and stand so that you see this page. It does not move.",
+    ],
+    start: "Begin to look",
+    done: "The camera has been calibrated",
+  },
   switches: {
     name: "Limit switches",
     purpose: "How well they repeat: homes again and again, and looks where the robot then stands.",
@@ -95,6 +106,7 @@ export const fields = {
   stroke: "Length of a stroke, mm",
   spring: "Rate of the spring, N/mm",
   springKnown: "The rate is known to, ± %",
+  square: "Side of a square, mm",
 };
 
 export const fieldHints = {

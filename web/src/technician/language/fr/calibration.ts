@@ -1,4 +1,5 @@
 import type { CalibrationWords } from "../types";
+import { board } from "./board";
 import { fieldHints, fields, routines } from "./routines";
 import { doing, hints, questions, remarks } from "./said";
 
@@ -30,7 +31,7 @@ export const calibration: CalibrationWords = {
   },
   begin: "Mesurer et vérifier",
   order: "Un nouveau robot les veut dans cet ordre.",
-  groups: { axes: "Un axe après l’autre", whole: "Le robot entier", use: "Apprendre et vérifier" },
+  groups: { camera: "La caméra", axes: "Un axe après l’autre", whole: "Le robot entier", use: "Apprendre et vérifier" },
   about: (minutes) => `environ ${String(minutes)} min`,
   routines,
   guide: {
@@ -46,6 +47,7 @@ export const calibration: CalibrationWords = {
   },
   fields,
   fieldHints,
+  board,
   picture: { show: "Montrer la caméra", hide: "Cacher la caméra" },
   underWay: {
     place: (done, total) => `Point ${String(done)} sur ${String(total)}`,
@@ -116,6 +118,16 @@ export const calibration: CalibrationWords = {
     madeBy: (name, at) => `${name}, ${at}`,
     looks: (count, time) => `${String(count)} regards en ${time}`,
   },
+  tip: {
+    title: "Ce que la pointe du connecteur peut encore manquer",
+    text: (likely, most) =>
+      `Dans tout l’espace de travail\u00a0: autant de chances d’être en deçà qu’au-delà de ${likely} mm, et au plus ${most} mm dans 95 cas sur 100.`,
+    likelyOnly: (likely) =>
+      `Dans tout l’espace de travail\u00a0: autant de chances d’être en deçà qu’au-delà de ${likely} mm.`,
+    likely: "dans la moitié des cas",
+    most: "dans 95 cas sur 100",
+    scale: (length) => `Le trait mesure ${length} mm`,
+  },
   residuals: {
     title: "Ce qui reste à chaque point",
     alt: (count, middle, most) =>
@@ -163,6 +175,12 @@ export const calibration: CalibrationWords = {
   },
   versions: { title: "Toutes les versions", none: "Rien n’est encore étalonné.", older: "Montrer les plus anciennes" },
   checks: {
+    verdicts: {
+      good: "Bon\u00a0: assez exact pour des prises.",
+      usable: "Utilisable\u00a0: la caméra corrige le reste sur la fin du trajet.",
+      bad: "Mauvais\u00a0: trop d’écart pour des prises.",
+    },
+    mend: "Ce qu’il faut faire",
     title: "Vérifications",
     none: "Rien n’est encore vérifié.",
     report: "Télécharger le rapport (PDF)",

@@ -46,5 +46,12 @@ export const problems: BenchProblems = {
     calibration_slide_hit: ["Le connecteur a heurté quelque chose", "Dégagez le passage devant le connecteur, ou choisissez une course plus courte, puis continuez."],
     calibration_no_spring: ["Le connecteur n’a pas rencontré de ressort", "Placez le ressort droit devant le connecteur, à sa portée, puis continuez."],
     calibration_check_not_found: ["Ce contrôle n’existe pas", "Consultez la liste des contrôles."],
+    camera_calibration: ["La caméra ne peut pas être étalonnée ainsi", "Prenez plus d’images de toute la mire, de près, de loin et de biais."],
+    calibration_no_board: ["La mire n’était pas visible", "Tenez toute la mire devant la caméra, bien éclairée, puis continuez."],
+    calibration_mixed_resolution: ["Les images n’ont pas la même taille", "Prenez-les toutes avec la même caméra, dans la taille que le robot utilise."],
+    calibration_wrong_board: ["C’est une autre mire", "Prenez la mire à télécharger ici, puis continuez."],
+    calibration_diverged: ["Les images ne vont pas ensemble", "Vérifiez que la mire est plate et n’a pas bougé sur les images\u00a0; prenez-en de nouvelles."],
+    calibration_board_blurred: ["La mire est floue", "Nettoyez l’objectif, réglez la mise au point sur la distance des étiquettes, donnez plus de lumière, puis continuez."],
+    calibration_too_few_views: ["Il y a trop peu de vues de la mire", "Continuez, et tenez la mire comme la page le dit, immobile une seconde à chaque fois."],
   },
 };

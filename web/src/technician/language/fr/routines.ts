@@ -2,6 +2,17 @@
 import type { CalibrationWords } from "../types";
 
 export const routines: CalibrationWords["routines"] = {
+  camera: {
+    name: "Étalonner la caméra",
+    purpose: "Focale, centre et distorsion, d’après des images de la mire imprimée que vous tenez.",
+    prepare: [
+      "Imprimez la mire à 100 %, et collez-la sur quelque chose de plat et de rigide.",
+      "Mesurez le côté de ses carrés, de préférence sur cinq d’entre eux, et notez-le ici.",
+      "Laissez le robot là où vous atteignez la caméra, et placez-vous de façon à voir cette page. Il ne bouge pas.",
+    ],
+    start: "Commencer",
+    done: "La caméra est étalonnée",
+  },
   switches: {
     name: "Fins de course",
     purpose: "Si elles se répètent bien\u00a0: le robot cherche plusieurs fois sa position et regarde où il se trouve ensuite.",
@@ -96,6 +107,7 @@ export const fields: CalibrationWords["fields"] = {
   stroke: "Longueur d’une course, mm",
   spring: "Raideur du ressort, N/mm",
   springKnown: "Raideur connue à ± %",
+  square: "Côté d’un carré, mm",
 };
 
 export const fieldHints: CalibrationWords["fieldHints"] = {

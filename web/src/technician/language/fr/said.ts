@@ -17,6 +17,8 @@ export const doing: CalibrationWords["doing"] = {
   back: "L’étiquette est regardée, connecteur retiré.",
   kept: "L’étalonnage est terminé. Personne ne l’utilise encore.",
   checked: "La vérification est terminée.",
+  board: "Recherche de la mire.",
+  camera: "Calcul de la caméra d’après les images.",
   first: "Le robot va au premier point.",
   second: "Le robot va au second point.",
   rule: "Il manque ce que dit la règle.",
@@ -43,6 +45,18 @@ export const remarks: CalibrationWords["remarks"] = {
   friction: (a) => `La glissière demande ${a} N pour bouger à vide\u00a0: nettoyez et graissez sa vis.`,
   offset: (a) => `Sans aucune force, le courant du moteur montre ${a} N\u00a0: quelque chose tire sur la glissière, le câble par exemple.`,
   scale: (a) => `La force affichée vaut ${a} fois la vraie\u00a0: corrigez la force du moteur pour son courant dans les réglages de la carte.`,
+  edges: (a) => `Au bord de l’espace de travail, le connecteur peut encore être à ${a} mm\u00a0: mesurez les courroies sur 400 mm et l’étiquette au pied à coulisse, placez l’étiquette près du milieu de l’espace de travail, et répétez.`,
+  corners: (a) => `Les coins ont en moyenne ${a} px d’écart\u00a0: la mire est-elle plate, la mise au point fixe, et rien de flou\u00a0?`,
+  focal: (a) => `La focale n’est sûre qu’à ${a} % près\u00a0: prenez plus d’images de biais et à des distances différentes.`,
+  centre: (a) => `Le centre n’est sûr qu’à ${a} px près\u00a0: tournez la mire d’un quart de tour sur quelques images, et inclinez-la.`,
+  cover: (a) => `La mire a été dans ${a} % de l’image\u00a0: tenez-la là où elle n’était pas.`,
+  angle: (a, b) => `Seules ${a} images montrent la mire de biais\u00a0; il en faut ${b} ou plus.`,
+  held: (a) => `Des images mises de côté vont moins bien (${a} px)\u00a0: prenez plus d’images.`,
+  leftOut: (a) => `${a} images ont dû être écartées\u00a0: la mire s’est-elle pliée, ou la mise au point a-t-elle bougé\u00a0?`,
+  places: (a, b) => `AP + RP va jusqu’à ${a} mm\u00a0; ${b} mm sont demandés.`,
+  mostPlay: () => "C’est surtout du jeu\u00a0: tendez les courroies, puis vérifiez de nouveau.",
+  off: () => "Les points sont décalés, mais se répètent\u00a0: mesurez le robot, puis vérifiez de nouveau.",
+  unsteady: () => "Les points ne se répètent pas\u00a0: regardez si un chariot coince.",
   unknowns: {
     left_leg: "longueur de la jambe gauche",
     right_leg: "longueur de la jambe droite",
@@ -62,6 +76,7 @@ export const remarks: CalibrationWords["remarks"] = {
 };
 
 export const questions: CalibrationWords["questions"] = {
+  camera_enough: () => "Arrêtez quand vous voulez\u00a0: ce qui est là peut être calculé maintenant.",
   belts_marked: () => "Marquez sur le rail où sont les deux chariots, puis confirmez.",
   belts_left: () => "De combien le chariot gauche s’est-il éloigné de sa marque\u00a0?",
   belts_right: () => "De combien le chariot droit s’est-il éloigné de sa marque\u00a0?",

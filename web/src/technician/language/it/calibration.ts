@@ -1,4 +1,5 @@
 import type { CalibrationWords } from "../types";
+import { board } from "./board";
 import { fieldHints, fields, routines } from "./routines";
 import { doing, hints, questions, remarks } from "./said";
 
@@ -30,7 +31,7 @@ export const calibration: CalibrationWords = {
   },
   begin: "Misurare e verificare",
   order: "Un robot nuovo le vuole in quest’ordine.",
-  groups: { axes: "Un asse alla volta", whole: "Il robot intero", use: "Insegnare e verificare" },
+  groups: { camera: "La telecamera", axes: "Un asse alla volta", whole: "Il robot intero", use: "Insegnare e verificare" },
   about: (minutes) => `circa ${String(minutes)} min`,
   routines,
   guide: {
@@ -46,6 +47,7 @@ export const calibration: CalibrationWords = {
   },
   fields,
   fieldHints,
+  board,
   picture: { show: "Mostra la telecamera", hide: "Nascondi la telecamera" },
   underWay: {
     place: (done, total) => `Punto ${String(done)} di ${String(total)}`,
@@ -116,6 +118,15 @@ export const calibration: CalibrationWords = {
     madeBy: (name, at) => `${name}, ${at}`,
     looks: (count, time) => `${String(count)} sguardi in ${time}`,
   },
+  tip: {
+    title: "Quanto può ancora sbagliare la punta del connettore",
+    text: (likely, most) =>
+      `In tutta l’area di lavoro: tanto probabile meno quanto più di ${likely} mm, e al massimo ${most} mm in 95 casi su 100.`,
+    likelyOnly: (likely) => `In tutta l’area di lavoro: tanto probabile meno quanto più di ${likely} mm.`,
+    likely: "nella metà dei casi",
+    most: "in 95 casi su 100",
+    scale: (length) => `La linea è lunga ${length} mm`,
+  },
   residuals: {
     title: "Che cosa resta in ogni punto",
     alt: (count, middle, most) =>
@@ -163,6 +174,12 @@ export const calibration: CalibrationWords = {
   },
   versions: { title: "Tutte le versioni", none: "Nulla è ancora calibrato.", older: "Mostra le più vecchie" },
   checks: {
+    verdicts: {
+      good: "Buono: abbastanza esatto per le prese.",
+      usable: "Utilizzabile: la telecamera corregge il resto nell’ultimo tratto.",
+      bad: "Cattivo: sbaglia troppo per le prese.",
+    },
+    mend: "Che cosa fare",
     title: "Verifiche",
     none: "Nulla è ancora verificato.",
     report: "Scarica il rapporto (PDF)",

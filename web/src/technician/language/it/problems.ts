@@ -46,5 +46,12 @@ export const problems: BenchProblems = {
     calibration_slide_hit: ["La spina ha urtato qualcosa", "Liberare lo spazio davanti alla spina, o scegliere una corsa più breve, poi continuare."],
     calibration_no_spring: ["La spina non ha incontrato nessuna molla", "Mettere la molla diritta davanti alla spina, alla sua portata, poi continuare."],
     calibration_check_not_found: ["Questa verifica non esiste", "Guardare l’elenco delle verifiche."],
+    camera_calibration: ["La telecamera non si può calibrare così", "Prendere più immagini di tutta la tavola, da vicino, da lontano e di sbieco."],
+    calibration_no_board: ["La tavola non si vedeva", "Tenere tutta la tavola davanti alla telecamera, ben illuminata, poi continuare."],
+    calibration_mixed_resolution: ["Le immagini hanno misure diverse", "Prenderle tutte con la stessa telecamera, nella misura che il robot usa."],
+    calibration_wrong_board: ["È un’altra tavola", "Prendere la tavola che si scarica qui, poi continuare."],
+    calibration_diverged: ["Le immagini non vanno insieme", "Controllare che la tavola sia piana e non si sia mossa nelle immagini; prenderne di nuove."],
+    calibration_board_blurred: ["La tavola è sfocata", "Pulire l’obiettivo, mettere a fuoco alla distanza delle etichette, dare più luce, poi continuare."],
+    calibration_too_few_views: ["Ci sono troppo poche viste della tavola", "Continuare, e tenere la tavola come dice la pagina, ferma un secondo ogni volta."],
   },
 };

@@ -2,6 +2,17 @@
 import type { CalibrationWords } from "../types";
 
 export const routines: CalibrationWords["routines"] = {
+  camera: {
+    name: "Calibrare la telecamera",
+    purpose: "Focale, centro e distorsione, da immagini della tavola stampata tenuta in mano.",
+    prepare: [
+      "Stampare la tavola al 100 %, e incollarla su qualcosa di piano e rigido.",
+      "Misurare il lato dei suoi quadrati, meglio su cinque di essi, e scriverlo qui.",
+      "Lasciare il robot dove si arriva davanti alla telecamera, e mettersi in modo da vedere questa pagina. Non si muove.",
+    ],
+    start: "Inizia",
+    done: "La telecamera è calibrata",
+  },
   switches: {
     name: "Finecorsa",
     purpose: "Quanto bene si ripetono: il robot cerca più volte la posizione e guarda dove si trova poi.",
@@ -96,6 +107,7 @@ export const fields: CalibrationWords["fields"] = {
   stroke: "Lunghezza di una corsa, mm",
   spring: "Rigidezza della molla, N/mm",
   springKnown: "Rigidezza nota a ± %",
+  square: "Lato di un quadrato, mm",
 };
 
 export const fieldHints: CalibrationWords["fieldHints"] = {

@@ -17,6 +17,8 @@ export const doing: CalibrationWords["doing"] = {
   back: "Si guarda l’etichetta con il connettore ritirato.",
   kept: "La calibrazione è finita. Nessuno la usa ancora.",
   checked: "La verifica è finita.",
+  board: "Si cerca la tavola.",
+  camera: "Si calcola la telecamera dalle immagini.",
   first: "Il robot va al primo punto.",
   second: "Il robot va al secondo punto.",
   rule: "Manca ciò che dice il righello.",
@@ -43,6 +45,18 @@ export const remarks: CalibrationWords["remarks"] = {
   friction: (a) => `La slitta richiede ${a} N per muoversi a vuoto: pulire e ingrassare la sua vite.`,
   offset: (a) => `Senza alcuna forza la corrente del motore mostra ${a} N: qualcosa tira la slitta, per esempio il cavo.`,
   scale: (a) => `La forza mostrata è ${a} volte quella vera: correggere la forza del motore per la sua corrente nelle impostazioni della scheda.`,
+  edges: (a) => `Ai bordi dell’area di lavoro il connettore può ancora sbagliare di ${a} mm: misurare le cinghie su 400 mm e l’etichetta con il calibro, mettere l’etichetta vicino al centro dell’area di lavoro, e ripetere.`,
+  corners: (a) => `Gli angoli sbagliano in media di ${a} px: la tavola è piana, il fuoco fisso, e nulla sfocato?`,
+  focal: (a) => `La focale è sicura solo al ${a} %: prendere più immagini di sbieco e a distanze diverse.`,
+  centre: (a) => `Il centro è sicuro solo a ${a} px: in alcune immagini ruotare la tavola di un quarto di giro, e inclinarla.`,
+  cover: (a) => `La tavola è stata nel ${a} % dell’immagine: tenerla dove non era ancora.`,
+  angle: (a, b) => `Solo ${a} immagini mostrano la tavola di sbieco; ne servono ${b} o più.`,
+  held: (a) => `Le immagini tenute da parte vanno peggio (${a} px): prendere più immagini.`,
+  leftOut: (a) => `${a} immagini si sono dovute escludere: la tavola si è piegata o il fuoco si è spostato?`,
+  places: (a, b) => `AP + RP arriva a ${a} mm; ne sono richiesti ${b}.`,
+  mostPlay: () => "È soprattutto gioco: tendere le cinghie, poi verificare di nuovo.",
+  off: () => "I punti sono spostati, ma si ripetono: misurare il robot, poi verificare di nuovo.",
+  unsteady: () => "I punti non si ripetono: guardare se un carrello si blocca.",
   unknowns: {
     left_leg: "lunghezza della gamba sinistra",
     right_leg: "lunghezza della gamba destra",
@@ -62,6 +76,7 @@ export const remarks: CalibrationWords["remarks"] = {
 };
 
 export const questions: CalibrationWords["questions"] = {
+  camera_enough: () => "Smettere quando si vuole: ciò che c’è si può calcolare adesso.",
   belts_marked: () => "Segnare sulla guida dove stanno i due carrelli, poi confermare.",
   belts_left: () => "Di quanto si è allontanato il carrello sinistro dal suo segno?",
   belts_right: () => "Di quanto si è allontanato il carrello destro dal suo segno?",
