@@ -21,7 +21,8 @@ import { job, live, robot, snapshot } from "./states";
 
 /** Refusals of a press: they are shown beside the button, and nobody is asked to go and look. */
 const REFUSALS = new Set<string>([
-  "error", "invalid_request", "not_simulated", "control", "control_busy", "control_lost", "job",
+  "error", "invalid_request", "not_simulated", "control", "control_busy", "control_lost",
+  "control_held", "not_in_control", "nobody_asks", "control_request_pending", "job",
   "job_queue_full", "job_needs_person", "job_not_found", "job_ended", "cannot_pause", "not_paused",
   "schedule", "schedule_missed", "not_charging", "unknown_vehicle", "vehicle_required",
   "vehicle_in_use", "target_gone", "calibration_held", "charge_point", "charge_point_resting",
