@@ -5,11 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, expect
 
 from tests.browser.chromium import chromium
 from tests.browser.stage import STATIC_DIR, Stage, serve
 from tests.support.chromium import require_chromium
+
+PATIENCE_MS = 20_000
+"""Two tests run at once, each with a browser, some with a server, too."""
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _patient() -> None:
+    expect.set_options(timeout=PATIENCE_MS)
 
 
 @pytest.fixture(scope="module")

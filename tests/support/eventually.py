@@ -8,7 +8,7 @@ from collections.abc import Awaitable, Callable
 
 
 async def eventually(
-    condition: Callable[[], bool] | Callable[[], Awaitable[bool]], *, within_s: float = 10.0
+    condition: Callable[[], bool] | Callable[[], Awaitable[bool]], *, within_s: float = 30.0
 ) -> None:
     """Returns as soon as a condition holds.
 
