@@ -45,6 +45,7 @@ from tests.support.pairing import new_key
 SECONDS, WATCHERS = 20.0, 50
 TELEMETRY_S, TICK_S = 0.01, 0.02
 READ_PAUSE_S = 0.01
+SETTLING_S = 0.5
 YIELDING = ("nice", "-n", "10")
 TARGETS_MS = {"read of the state": 10.0, "push to a watcher": 50.0, "control loop": 5.0}
 
@@ -189,8 +190,14 @@ def _read(url: str, key: dict[str, str], seconds: float) -> list[float]:
 async def _watch_all(url: str, key: dict[str, str], seconds: float, watchers: int) -> list[float]:
     ages_ms: list[float] = []
     address = url.replace("http", "ws", 1) + "/api/v1/ws"
-    sockets = [await connect(address, additional_headers=key, proxy=None) for _ in range(watchers)]
-    watching = [asyncio.create_task(_watch(socket, ages_ms)) for socket in sockets]
+    sockets: list[ClientConnection] = []
+    watching: list[asyncio.Task[None]] = []
+    for _ in range(watchers):
+        sockets.append(await connect(address, additional_headers=key, proxy=None))
+        watching.append(asyncio.create_task(_watch(sockets[-1], ages_ms)))
+    # What came while not all of them were there was kept waiting here, not by the server.
+    await asyncio.sleep(SETTLING_S)
+    ages_ms.clear()
     await asyncio.sleep(seconds)
     for task in watching:
         task.cancel()

@@ -1,4 +1,4 @@
-"""Where the joints should be: the carriages at their set points, the slide a lag behind."""
+"""Where the joints should be: the carriages at their set points, the slide a lag behind or less."""
 
 from __future__ import annotations
 
@@ -62,7 +62,8 @@ class Tracking:
     """Compares the measured joints with where the model has them.
 
     The carriages are open-loop steppers: what is measured of them are steps, so a carriage that
-    slips or is pushed does not show here. The slide has an encoder.
+    slips or is pushed does not show here. The slide has an encoder. It may be anywhere between its
+    set point and the usual lag behind that: a board that feeds the speed forward has hardly any.
 
     The standard deviation of a carriage is that of its steps and of the time between set point
     and count; that of the slide also has the spread of its lag and its give under load:
@@ -87,6 +88,8 @@ class Tracking:
         slide_mm = self._slide.follow(
             sample.at_s, sample.commanded.rho3_mm, velocity.rho3_mm_s, sample.measured.rho3_mm
         )
+        lowest_mm, highest_mm = sorted((slide_mm, sample.commanded.rho3_mm))
+        slide_mm = min(max(sample.measured.rho3_mm, lowest_mm), highest_mm)
         # Lags matter as long as the joint still catches up after its set point has stopped.
         slide_mm_s = max(abs(velocity.rho3_mm_s), self._last_slide_mm_s * 0.7)
         self._last_slide_mm_s = slide_mm_s

@@ -58,6 +58,7 @@ class Gate:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one request or connection."""
         if scope["type"] not in {"http", "websocket"}:
+            self._table(scope["app"])  # it takes a while: not when somebody asks, and a robot moves
             await self._app(scope, receive, send)
             return
         services: Services = scope["app"].state.services

@@ -25,6 +25,7 @@ from drivers.robot import RobotState
 from server.calibration.axes.estimates import Estimate
 from server.calibration.axes.following import FollowingWatch
 from server.control.errors import ControlError
+from twin.slide_pace import SlidePace
 
 Array = NDArray[np.float64]
 
@@ -41,7 +42,7 @@ class StrokeWatch:
     """Looks at every sample of a stroke; pass ``take`` as its watch.
 
     Attributes:
-        end_at_n: A force of this size ends the stroke.
+        end_at_n: A force of this size ends the stroke, unless it is what speeds the slide up.
         hit: What is raised then.
     """
 
@@ -49,6 +50,7 @@ class StrokeWatch:
     hit: type[ControlError]
     following: FollowingWatch
     _samples: list[tuple[float, float, float]] = field(default_factory=list)
+    _pace: SlidePace = field(default_factory=SlidePace)
 
     def take(self, state: RobotState) -> None:
         """Take in a sample.
@@ -58,9 +60,11 @@ class StrokeWatch:
         """
         self.following.take(state)
         speed = state.commanded.velocity.rho3_mm_s
-        self._samples.append((speed, state.measured.position.rho3_mm, state.force_n))
+        rho3_mm = state.measured.position.rho3_mm
+        self._samples.append((speed, rho3_mm, state.force_n))
+        self._pace.take(state.sampled_at_s, state.commanded.position.rho3_mm, speed, rho3_mm)
         force_n = median(force for _, _, force in self._samples[-SAMPLES:])
-        if len(self._samples) >= SAMPLES and abs(force_n) > self.end_at_n:
+        if self._pace.shows_too_much and abs(force_n) > self.end_at_n:
             raise self.hit(f"The slide meets {abs(force_n):.0f} N.", force_n=round(force_n, 1))
 
     @property

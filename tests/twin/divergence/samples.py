@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+from tests.support.slide_drive import driven
 from twin.divergence import Sample
 from twin.joints import JointPosition, JointVelocity
 
@@ -69,6 +70,18 @@ def slide_in(
                 velocity=JointVelocity(0.0, 0.0, v),
                 force_n=force_n(x),
             )
+
+
+def real_drive(load_n: Callable[[float], float], mass_n_s2_mm: float) -> Iterator[Sample]:
+    """A slide that a control loop and a motor with a rotor move, from START."""
+    for told in driven(load_n, way_mm=20.0, mass_n_s2_mm=mass_n_s2_mm):
+        yield sample(
+            told.at_s,
+            measured=START._replace(rho3_mm=START.rho3_mm + told.measured_mm),
+            commanded=START._replace(rho3_mm=START.rho3_mm + told.set_point_mm),
+            velocity=JointVelocity(0.0, 0.0, told.speed_mm_s),
+            force_n=told.force_n,
+        )
 
 
 def _trapezoid(t: float, speed: float, ramp_s: float, cruise_s: float) -> tuple[float, float]:

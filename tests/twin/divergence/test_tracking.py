@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.twin.divergence.samples import START, sample, slide_in
+from tests.support.slide_drive import MASSES_N_S2_MM
+from tests.twin.divergence.samples import START, real_drive, sample, slide_in
 from twin.divergence import Quantity
 from twin.divergence.numbers import TrackingNumbers
 from twin.divergence.tracking import FirstOrderLag, Tracking
@@ -37,6 +38,11 @@ def test_the_lag_agrees_with_a_fine_integration() -> None:
 
 def test_a_good_slide_stays_within_one_sigma() -> None:
     assert worst(slide_in(), Quantity.RHO3) < 1.0
+
+
+@pytest.mark.parametrize("mass_n_s2_mm", MASSES_N_S2_MM)
+def test_a_drive_that_follows_better_than_usual_is_good(mass_n_s2_mm: float) -> None:
+    assert worst(real_drive(lambda _: 1.5, mass_n_s2_mm), Quantity.RHO3) < 4.0
 
 
 @pytest.mark.parametrize("lag_s", [0.045, 0.06, 0.1])

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from tests.support.slide_drive import MASSES_N_S2_MM, driven
-from tests.twin.divergence.samples import START, sample, slide_in
+from tests.support.slide_drive import MASSES_N_S2_MM
+from tests.twin.divergence.samples import START, real_drive, sample, slide_in
 from twin.divergence import (
     Change,
     DivergenceNumbers,
@@ -21,7 +21,6 @@ from twin.divergence import (
 from twin.divergence.numbers import AlarmNumbers, ForceNumbers
 from twin.divergence.words import sentence, title
 from twin.geometry import RobotGeometry
-from twin.joints import JointVelocity
 
 COARSE = DivergenceNumbers(force=ForceNumbers(noise_n=4.3))
 """A count more or less of the encoder in 16 ms, by which the board's loop works, is 8.6 N."""
@@ -56,17 +55,8 @@ def test_a_jam_names_the_slide_and_where_it_stands() -> None:
 def forces_found(load_n: Callable[[float], float], mass_n_s2_mm: float) -> list[Change]:
     """What is said about the force of a slide that a real drive moves."""
     model = DivergenceWatch(RobotGeometry(), COARSE)
-    changes: list[Change] = []
-    for told in driven(load_n, way_mm=20.0, mass_n_s2_mm=mass_n_s2_mm):
-        changes += model.take_sample(
-            sample(
-                told.at_s,
-                measured=START._replace(rho3_mm=START.rho3_mm + told.measured_mm),
-                commanded=START._replace(rho3_mm=START.rho3_mm + told.set_point_mm),
-                velocity=JointVelocity(0.0, 0.0, told.speed_mm_s),
-                force_n=told.force_n,
-            )
-        )
+    drive = real_drive(load_n, mass_n_s2_mm)
+    changes = [change for each in drive for change in model.take_sample(each)]
     return [each for each in changes if each.divergence.quantity is Quantity.FORCE]
 
 

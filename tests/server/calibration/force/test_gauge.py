@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from server.calibration.axes.estimates import Estimate
-from server.calibration.force.gauge import friction_and_offset, scale_by_spring
+from server.calibration.axes.following import FollowingWatch
+from server.calibration.force.gauge import StrokeWatch, friction_and_offset, scale_by_spring
 from server.calibration.force.verdict import judge_force
 from server.calibration.grade import Grade
+from server.control.errors import ControlError
+from tests.server.control.test_plug_watch import sample
+from tests.support.slide_drive import MASSES_N_S2_MM, driven
 
 RATE = 5.0
 
@@ -58,3 +64,27 @@ def test_the_verdict_names_what_to_mend() -> None:
     assert len(remarks) == 3
     # what a spring is not known well enough to say is not said
     assert judge_force(fine, sure, Estimate(1.08, 0.05))[0] is Grade.GOOD
+
+
+class HitError(ControlError):
+    """Something stood in the way."""
+
+
+@pytest.mark.parametrize("mass_n_s2_mm", MASSES_N_S2_MM)
+def test_what_speeds_the_slide_up_is_no_hit_and_a_wall_is_one(mass_n_s2_mm: float) -> None:
+    def stroke_to(load_n: Callable[[float], float]) -> None:
+        watch = StrokeWatch(20.0, HitError, FollowingWatch())
+        for told in driven(load_n, way_mm=12.0, speed_mm_s=7.0, mass_n_s2_mm=mass_n_s2_mm):
+            watch.take(
+                sample(
+                    told.measured_mm,
+                    told.force_n,
+                    told.at_s,
+                    lag_mm=told.set_point_mm - told.measured_mm,
+                    speed_mm_s=told.speed_mm_s,
+                )
+            )
+
+    stroke_to(lambda _: 1.5)
+    with pytest.raises(HitError):
+        stroke_to(lambda way_mm: max(150.0 * (way_mm - 6.0), 1.5))
