@@ -25,6 +25,7 @@ from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
 from server.schema.push import PushState, PushSubscription
 from server.schema.robot import Reach, WayLeft
 from server.schema.vehicles import Vehicle, VehicleList
+from tests.browser import board_scene
 from tests.browser.bench_scenes import answer, picture
 from tests.browser.scenes import LABEL_NOT_FOUND, SCENES, job
 
@@ -108,6 +109,7 @@ class Stage:
         self.app.get("/api/v1/robot/reach")(self._reach)
         self.app.get("/twin/")(self._twin)
         self.app.get("/api/v1/camera/inspection/{name}")(self._picture)
+        self.app.get("/api/v1/calibrations/routine/board/{name}")(self._board)
         self.app.get("/api/v1/{rest:path}")(self._example)
         self.app.post("/api/v1/{rest:path}")(self._accept)
 
@@ -184,6 +186,10 @@ class Stage:
     async def _picture(self, name: str) -> Response:
         del name
         return Response(picture(), media_type="image/jpeg")
+
+    async def _board(self, name: str) -> Response:
+        del name
+        return Response(board_scene.picture(), media_type="image/jpeg")
 
     async def _example(self, rest: str) -> JSONResponse:
         await asyncio.sleep(BEAT_S)  # the page asks again and again

@@ -1,4 +1,7 @@
-"""A badly built robot becomes a good one through the page: measured, used, and taken back."""
+"""A badly built robot becomes a good one through the page: measured, used, and taken back.
+
+Its camera is calibrated with the board in a simulated hand.
+"""
 
 from __future__ import annotations
 
@@ -24,6 +27,8 @@ mount_angle_std_rad = 0.026
 """What a drill and a printer leave; the camera's own numbers and its place are known."""
 ROUTINE_TIMEOUT_MS = 120_000
 JOB_TIMEOUT_MS = 60_000
+LOOK_TIMEOUT_MS = 30_000
+PICTURES = 3
 SOME_PLACE = re.compile(r"Place \d+ of 25")
 GOOD_MM, BADLY_MM = 0.06, 0.5
 
@@ -100,6 +105,30 @@ def test_a_badly_built_robot_is_measured_used_and_plugs_in(
     page.get_by_role("button", name="Roll back: Robot").tap()
     expect(page.locator(".calibration-list").first).to_contain_text("Robot as drawn")
     assert _in_force(server) is None
+    assert errors == []
+
+
+def test_the_board_is_held_as_the_page_says(phone: BrowserContext, server: ServerProcess) -> None:
+    page = phone.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(f"{server.url}/technician")
+    _open(page)
+    page.get_by_role("button", name="Calibrate the camera").tap()
+    page.get_by_role("button", name="Begin to look").tap()
+    expect(page.get_by_text("No board in sight")).to_be_visible(timeout=LOOK_TIMEOUT_MS)
+    for taken in range(PICTURES):
+        expect(page.get_by_text(re.compile(f"Picture {taken} of"))).to_be_visible()
+        page.get_by_role("button", name="Do what it says").tap()
+        expect(page.get_by_text(re.compile(f"Picture {taken + 1} of"))).to_be_visible(
+            timeout=LOOK_TIMEOUT_MS
+        )
+        expect(page.locator(".board-overlay circle").nth(11)).to_be_attached()
+    expect(page.locator(".cell:not(.empty)").nth(10)).to_be_attached()
+    page.get_by_role("button", name="Put the board away").tap()
+    expect(page.get_by_text("No board in sight")).to_be_visible(timeout=LOOK_TIMEOUT_MS)
+    page.get_by_role("button", name="End it").tap()
+    expect(page.get_by_text("Ended before it was done")).to_be_visible()
     assert errors == []
 
 

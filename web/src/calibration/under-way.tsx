@@ -8,7 +8,7 @@ import { CameraSwitch } from "./picture";
 import { LookMap } from "./plots/look-map";
 import { QuestionForm } from "./question";
 import { ROUTINES } from "./routines";
-import { doingOf } from "./translated";
+import { doingOf, DOINGS } from "./translated";
 import type { Routine, RoutineKind } from "./types";
 import { say } from "./words";
 
@@ -23,25 +23,26 @@ export function UnderWay({ routine }: { routine: Routine }) {
   const asks = interrupted ? null : (routine.asks ?? null);
   const { needsLabel, plugIn } = ROUTINES[kind];
   const name = say.routines[kind].name;
-  const watching = kind === "camera";
+  const watching = kind === "camera" && !interrupted && routine.doing === DOINGS.board;
   return (
     <section class="calibration-run" data-tone={interrupted || (asks !== null && !watching) ? "ask" : "busy"}>
       <h3>{name}</h3>
-      {asks === null || watching ? (
+      {watching ? (
+        <BoardWatch asks={asks} />
+      ) : asks === null ? (
         <p role="status">
           <strong>{interrupted ? say.underWay.interrupted : doingOf(routine.doing)}</strong>
         </p>
       ) : (
         <QuestionForm key={asks.code} asks={asks} />
       )}
-      {watching && !interrupted && <BoardWatch asks={asks} />}
       <progress max={total} value={Math.min(done, total)} aria-label={name} />
       <p class="calibration-pace">
         <span>{counted(kind, done, total)}</span>
-        {!interrupted && asks === null && !watching && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
+        {!interrupted && asks === null && kind !== "camera" && <span class="soft">{say.underWay.left(formatDuration(left_s))}</span>}
       </p>
       {problem !== null && <TroubleWords trouble={problem} />}
-      {interrupted && (needsLabel || watching) && !plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
+      {interrupted && (needsLabel || kind === "camera") && !plugIn && <p class="soft small">{say.underWay.interruptedHint}</p>}
       {looks.length > 1 && !plugIn && <LookMap looks={looks} />}
       {needsLabel && <CameraSwitch />}
       <p class="soft small">{say.underWay.by(begun_by, formatDate(begun_at))}</p>

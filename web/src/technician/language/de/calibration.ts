@@ -121,9 +121,9 @@ export const calibration: CalibrationWords = {
   tip: {
     title: "Was die Steckerspitze noch verfehlen kann",
     text: (likely, most) =>
-      `Im ganzen Arbeitsraum: ebenso wahrscheinlich weniger als mehr als ${likely} mm, in 95 von 100 Fällen höchstens ${most} mm.`,
-    likelyOnly: (likely) => `Im ganzen Arbeitsraum: ebenso wahrscheinlich weniger als mehr als ${likely} mm.`,
-    likely: "in der Hälfte der Fälle",
+      `Fast im ganzen Arbeitsraum: in der Hälfte aller Fälle höchstens ${likely} mm, in 95 von 100 höchstens ${most} mm.`,
+    likelyOnly: (likely) => `Fast im ganzen Arbeitsraum: in der Hälfte aller Fälle höchstens ${likely} mm.`,
+    likely: "in der Hälfte aller Fälle",
     most: "in 95 von 100 Fällen",
     scale: (length) => `Der Strich ist ${length} mm lang`,
   },

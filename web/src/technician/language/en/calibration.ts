@@ -126,9 +126,9 @@ export const calibration = {
   tip: {
     title: "What the plug’s tip may still miss",
     text: (likely: string, most: string): string =>
-      `All over the workspace: as likely as not within ${likely} mm, in 95 of 100 cases within ${most} mm.`,
-    likelyOnly: (likely: string): string => `All over the workspace: as likely as not within ${likely} mm.`,
-    likely: "as likely as not",
+      `Nearly all over the workspace: in half of all cases within ${likely} mm, in 95 of 100 within ${most} mm.`,
+    likelyOnly: (likely: string): string => `Nearly all over the workspace: in half of all cases within ${likely} mm.`,
+    likely: "in half of all cases",
     most: "in 95 of 100 cases",
     scale: (length: string): string => `The line is ${length} mm long`,
   },

@@ -121,9 +121,9 @@ export const calibration: CalibrationWords = {
   tip: {
     title: "Ce que la pointe du connecteur peut encore manquer",
     text: (likely, most) =>
-      `Dans tout l’espace de travail\u00a0: autant de chances d’être en deçà qu’au-delà de ${likely} mm, et au plus ${most} mm dans 95 cas sur 100.`,
+      `Dans presque tout l’espace de travail\u00a0: au plus ${likely} mm dans la moitié des cas, et ${most} mm dans 95 cas sur 100.`,
     likelyOnly: (likely) =>
-      `Dans tout l’espace de travail\u00a0: autant de chances d’être en deçà qu’au-delà de ${likely} mm.`,
+      `Dans presque tout l’espace de travail\u00a0: au plus ${likely} mm dans la moitié des cas.`,
     likely: "dans la moitié des cas",
     most: "dans 95 cas sur 100",
     scale: (length) => `Le trait mesure ${length} mm`,

@@ -121,8 +121,8 @@ export const calibration: CalibrationWords = {
   tip: {
     title: "Quanto può ancora sbagliare la punta del connettore",
     text: (likely, most) =>
-      `In tutta l’area di lavoro: tanto probabile meno quanto più di ${likely} mm, e al massimo ${most} mm in 95 casi su 100.`,
-    likelyOnly: (likely) => `In tutta l’area di lavoro: tanto probabile meno quanto più di ${likely} mm.`,
+      `In quasi tutta l’area di lavoro: al massimo ${likely} mm nella metà dei casi, e ${most} mm in 95 casi su 100.`,
+    likelyOnly: (likely) => `In quasi tutta l’area di lavoro: al massimo ${likely} mm nella metà dei casi.`,
     likely: "nella metà dei casi",
     most: "in 95 casi su 100",
     scale: (length) => `La linea è lunga ${length} mm`,
