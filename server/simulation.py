@@ -102,7 +102,7 @@ async def park_first(services: Services) -> None:
     async with supervisor.control("homing", "Start of the simulation") as lease:
         await supervisor.enable(lease)
         await supervisor.home(lease)
-        await supervisor.move_joints(
+        await supervisor.move_from_below(
             lease, parking_joints(supervisor.geometry, services.settings.park)
         )
         await supervisor.plug.is_parked()

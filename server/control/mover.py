@@ -14,9 +14,10 @@ from server.control.load_guard import LoadGuard
 from server.control.motion import Motion, Watch
 from server.control.path_check import Strength, check_path
 from server.control.plug_guard import HELD, PlugGuard
+from server.control.taken_up import TakenUp, below
 from twin.geometry import RobotGeometry
 from twin.joints import JointPosition
-from twin.motion import JointState, MotionLimits, MotionPlan, plan_joint_move
+from twin.motion import JointState, MotionLimits, MotionPlan, plan_from_below, plan_joint_move
 
 
 class Mover:
@@ -34,6 +35,7 @@ class Mover:
 
     Attributes:
         built: The robot as it is built, which the board moves.
+        play: On which side of their play the carriages rest.
     """
 
     def __init__(
@@ -50,6 +52,7 @@ class Mover:
     ) -> None:
         self.geometry = geometry
         self.built = BuiltRobot()
+        self.play = TakenUp()
         self._limits = limits
         self.telemetry = board.telemetry
         self.plug = plug
@@ -145,21 +148,50 @@ class Mover:
         start = self.telemetry.require().commanded.position
         return await self.follow(lease, plan_joint_move(self.limits, start, target), watch)
 
+    async def move_from_below(self, lease: Lease, target: JointPosition) -> RobotState:
+        """The same, but both carriages come to the target from below: play is taken up there."""
+        state = await self.run(self.start_from_below(lease, target, changeable=False))
+        if self.play.from_below:
+            return state
+        # As this robot is built, a carriage that hardly moved has turned back on the way.
+        await self.move_joints(lease, below(self.geometry, target))
+        return await self.move_joints(lease, target)
+
+    def start_from_below(
+        self, lease: Lease, target: JointPosition, *, changeable: bool = True
+    ) -> Motion:
+        """Prepare a motion (``run``) whose carriages come to the target from below.
+
+        Raises:
+            ControlError: as ``start_motion``.
+        """
+        start = JointState.at_rest(self.telemetry.require().commanded.position)
+        return self.start_motion(lease, self._plan_from_below(start, target), changeable=changeable)
+
     def retarget(self, motion: Motion, target: JointPosition) -> None:
-        """Bend a running joint move to another target without stopping.
+        """Bend such a motion, while it runs, to another target without stopping.
 
         Raises:
             ControlError: the new way is not allowed; the old one goes on.
         """
 
         def replan(start: JointState) -> MotionPlan:
-            plan = plan_joint_move(self.limits, start, target)
+            plan = self._plan_from_below(start, target)
             self._check(plan)
             return plan
 
         motion.retarget(replan)
 
     # Inside
+
+    def _plan_from_below(self, start: JointState, target: JointPosition) -> MotionPlan:
+        return plan_from_below(
+            self.limits,
+            start,
+            target,
+            below(self.geometry, target),
+            taken_up=self.play.from_below,
+        )
 
     def _check(self, plan: MotionPlan) -> None:
         check_path(self.geometry, self.plug, plan, self.strength)

@@ -333,6 +333,8 @@ class Supervisor(Mover):
 
     async def _take_sample(self, state: RobotState) -> None:
         self._protection.take(state)
+        if self.board_state is not None:
+            self.play.follow(self.board_state)
         await settle_plug(self.plug, state, first=False)
         self._changed()
 
@@ -341,6 +343,7 @@ class Supervisor(Mover):
 
     def _lost(self) -> None:
         self._protection.lose()
+        self.play.forget()
         self._changed()
 
     def _changed(self) -> None:

@@ -27,6 +27,10 @@ class LateralOffset(NamedTuple):
 
 AT_THE_CENTRE = LateralOffset(0.0, 0.0)
 
+LEAD_MM = 0.4
+"""So far before its goal, on both rails, the plug waits for the measurement at standstill. The
+correction then goes on upwards, and play stays taken up without a detour."""
+
 
 def tip_on_way_in(
     geometry: RobotGeometry,
@@ -69,6 +73,11 @@ def pre_insertion(
             z_mm=round(entry.z_mm, 1),
             reason=str(error),
         ) from error
+
+
+def waiting_before(goal: JointPosition) -> JointPosition:
+    """Where to stand for the measurement that says where the goal really is."""
+    return goal._replace(rho1_mm=goal.rho1_mm - LEAD_MM, rho2_mm=goal.rho2_mm - LEAD_MM)
 
 
 def where_it_stands(

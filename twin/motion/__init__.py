@@ -8,6 +8,7 @@ from twin.motion.errors import (
     PlanningError,
     UnsafePlanError,
 )
+from twin.motion.from_below import plan_from_below
 from twin.motion.limits import JointLimits, MotionLimits
 from twin.motion.plan import JointState, MotionPlan, MotionSamples
 from twin.motion.point_to_point import JointPlan, minimum_time_s, plan_joint_move
@@ -30,6 +31,7 @@ __all__ = [
     "UnsafePlanError",
     "check_plan",
     "minimum_time_s",
+    "plan_from_below",
     "plan_joint_move",
     "plan_segments",
     "plan_stop",

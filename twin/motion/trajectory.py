@@ -30,12 +30,36 @@ class AxisLimits(NamedTuple):
     jerk_mm_s3: float
 
 
+class Extrema(Protocol):
+    """How far one degree of freedom goes."""
+
+    @property
+    def min(self) -> float:
+        """Least position."""
+        ...
+
+    @property
+    def max(self) -> float:
+        """Largest position."""
+        ...
+
+
 class Trajectory(Protocol):
     """A computed trajectory of one or more degrees of freedom."""
 
     @property
     def duration(self) -> float:
         """Length [s]."""
+        ...
+
+    @property
+    def independent_min_durations(self) -> list[float]:
+        """When each degree of freedom could arrive by itself [s]."""
+        ...
+
+    @property
+    def position_extrema(self) -> Sequence[Extrema]:
+        """How far each degree of freedom goes."""
         ...
 
     def at_time(self, time: float, /) -> tuple[list[float], list[float], list[float]]:
@@ -64,6 +88,24 @@ def solve_position(
     """
     problem = _problem(limits, position, velocity, acceleration)
     problem.target_position = list(target)
+    return _solve(problem, limits)
+
+
+def solve_freely(
+    limits: Sequence[JointLimits | AxisLimits],
+    position: Sequence[float],
+    velocity: Sequence[float],
+    acceleration: Sequence[float],
+    target: Sequence[float],
+) -> Trajectory:
+    """Fastest motion of each joint to rest at its target, none waiting for another.
+
+    Raises:
+        PlanningError: no trajectory was found.
+    """
+    problem = _problem(limits, position, velocity, acceleration)
+    problem.target_position = list(target)
+    problem.synchronization = Synchronization.No
     return _solve(problem, limits)
 
 

@@ -97,6 +97,8 @@ class JobObserver:
         observed, board = self._now, self._supervisor.board_state
         if observed is None or observed.seated or board is None or not socket.from_standstill:
             return
+        if not self._supervisor.play.from_below:
+            return  # play would pass for a belt that has changed
         joints = self._supervisor.telemetry.joints_at(socket.measured_at_s)
         camera = base_from_camera(self._supervisor.geometry, self._eye.mount, joints)
         label = (inverse(camera) @ socket.T_base_label)[:3, 3]

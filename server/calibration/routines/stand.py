@@ -31,8 +31,6 @@ from twin.kinematics import KinematicsError, PlatformPosition, alpha
 Array = NDArray[np.float64]
 
 FRAMES = 3
-TAKE_UP_MM = 1.5
-"""Every place is approached from here below it on both rails, so that play is always the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,12 +118,13 @@ class Stand:
             raise LabelLostError("The label was seen, but not from where it should be best seen.")
         return centred
 
-    async def go(self, platform_mm: Array, run_up_mm: float = -TAKE_UP_MM) -> None:
+    async def go(self, platform_mm: Array, run_up_mm: float | None = None) -> None:
         """Move the platform to a place, always from the same side.
 
         Args:
             platform_mm: x and y of V, shape (2,) [mm].
-            run_up_mm: How far both carriages stand from there before the last piece of the way.
+            run_up_mm: So far from there both carriages come to rest before the last piece of the
+                way; None: just from below.
 
         Raises:
             ControlError: it cannot get there.
@@ -138,8 +137,11 @@ class Stand:
             raise MotionOutOfReachError(str(error)) from error
         await self.go_joints(JointPosition(rho1_mm, rho2_mm, geometry.rho3.min_mm), run_up_mm)
 
-    async def go_joints(self, joints: JointPosition, run_up_mm: float = -TAKE_UP_MM) -> None:
+    async def go_joints(self, joints: JointPosition, run_up_mm: float | None = None) -> None:
         """The same, given the joints of the drawing."""
+        if run_up_mm is None:
+            await self.supervisor.move_from_below(self.lease, joints)
+            return
         before = joints._replace(
             rho1_mm=joints.rho1_mm + run_up_mm, rho2_mm=joints.rho2_mm + run_up_mm
         )

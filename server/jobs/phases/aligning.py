@@ -6,11 +6,10 @@ import asyncio
 import math
 
 from server.control.motion import Motion
-from server.jobs.approach import pre_insertion
+from server.jobs.approach import pre_insertion, waiting_before
 from server.jobs.context import JobContext
 from server.jobs.model import JobPhase
 from server.jobs.plugging.measuring import stand_before_socket
-from twin.motion import plan_joint_move
 
 RETARGET_MM = 0.05
 """A smaller change of the target is left to the measurement at standstill."""
@@ -31,10 +30,8 @@ async def run(job: JobContext) -> None:
 
 async def _approach(job: JobContext) -> None:
     supervisor, settings = job.supervisor, job.settings.insertion
-    target = pre_insertion(supervisor.geometry, job.require_socket(), settings)
-    start = supervisor.telemetry.require().commanded.position
-    plan = plan_joint_move(supervisor.limits, start, target)
-    motion = supervisor.start_motion(job.lease, plan, changeable=True)
+    goal = pre_insertion(supervisor.geometry, job.require_socket(), settings)
+    motion = supervisor.start_from_below(job.lease, waiting_before(goal))
     tasks = {
         asyncio.create_task(supervisor.run(motion), name="approach"),
         asyncio.create_task(_correct_on_the_way(job, motion), name="coarse correction"),
@@ -58,5 +55,5 @@ async def _correct_on_the_way(job: JobContext, motion: Motion) -> None:
         shift_mm = math.dist(seen.entry, job.require_socket().entry)
         job.see(seen)
         if shift_mm > RETARGET_MM:
-            target = pre_insertion(job.supervisor.geometry, seen, job.settings.insertion)
-            job.supervisor.retarget(motion, target)
+            goal = pre_insertion(job.supervisor.geometry, seen, job.settings.insertion)
+            job.supervisor.retarget(motion, waiting_before(goal))

@@ -69,7 +69,7 @@ async def _search(job: JobContext) -> SocketPose:
     for look in planner.looks(here.x_mm, here.y_mm, joints.rho3_mm):
         target = _joints_at(job, look)
         if math.dist((look.x_mm, look.y_mm), here) > HERE_MM:
-            await job.supervisor.move_joints(job.lease, target)
+            await job.supervisor.move_from_below(job.lease, target)
             socket = await job.eye.look(vehicle)
             refusals.append(job.eye.refusal)
             looks += 1

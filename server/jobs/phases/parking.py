@@ -22,5 +22,5 @@ async def go(job: JobContext) -> None:
     at = supervisor.telemetry.require().commanded.position
     if at.rho3_mm > target.rho3_mm:
         await supervisor.move_joints(job.lease, at._replace(rho3_mm=target.rho3_mm))
-    await supervisor.move_joints(job.lease, target)
+    await supervisor.move_from_below(job.lease, target)
     await supervisor.plug.is_parked()

@@ -22,6 +22,9 @@ MAX_MEASUREMENTS = 3
 async def stand_before_socket(job: JobContext, offset: LateralOffset = AT_THE_CENTRE) -> None:
     """Measure at standstill and correct, until the plug stands where it should.
 
+    The carriages come from below both to where the picture is taken and to where they go then, so
+    that their play, however wide, is the same in both places and drops out.
+
     Args:
         job: The job.
         offset: Aim so far beside the measured centre.
@@ -33,6 +36,10 @@ async def stand_before_socket(job: JobContext, offset: LateralOffset = AT_THE_CE
         SocketTooSkewedError: the socket is tilted too much.
         CameraDownError: the camera does not deliver.
     """
+    supervisor = job.supervisor
+    if not supervisor.play.from_below:
+        here = supervisor.telemetry.require().commanded.position
+        await supervisor.move_from_below(job.lease, here)
     for _ in range(MAX_MEASUREMENTS):
         correction_mm = await _measure_and_correct(job, offset)
         if correction_mm < MEASURE_AGAIN_MM:
@@ -69,7 +76,7 @@ async def _measure_and_correct(job: JobContext, offset: LateralOffset) -> float:
         lateral_sigma_mm=round(socket.lateral_sigma_mm, 4),
     )
     if correction_mm > GOOD_ENOUGH_MM:
-        await supervisor.move_joints(job.lease, target)
+        await supervisor.move_from_below(job.lease, target)
     return correction_mm
 
 
