@@ -120,10 +120,10 @@ check-web: web/node_modules/.package-lock.json
 	@echo "-- types of the web pages"
 	@cd web && npm run --silent check
 
-# Promises in seconds of the wall clock, and a board in real time: they get the machine to
-# themselves. All others live in virtual time, or have patience: two at once disturb nobody.
-ALONE = tests/rig/device tests/drivers/camera tests/server/test_serving.py \
-	tests/server/test_timing.py tests/server/test_connections.py
+# Promises in seconds of the wall clock, hands on real buttons and a board in real time: they get
+# the machine to themselves. All others live in virtual time, or have patience.
+ALONE = tests/browser/test_technician.py tests/drivers/camera tests/rig/device \
+	tests/server/test_connections.py tests/server/test_serving.py tests/server/test_timing.py
 
 test-together:
 	@echo "-- tests, two at a time"

@@ -31,10 +31,20 @@ BEYOND = """([cell, limit, sign]) =>
     sign * (parseFloat(document.querySelector(cell).textContent) - limit) > 0"""
 
 
+QUICKLY_HOMED = """
+[simulation.parameters.homing]
+locate_speed_mm_s = 10
+rail_speed_mm_s = 200
+acceleration_mm_s2 = 1000
+"""
+
+
 @pytest.fixture(scope="module")
-def server(browser: Browser) -> Iterator[ServerProcess]:
+def server(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServerProcess]:
     """The real server on the simulator, at the pace of a real robot, made ready on the page."""
-    with serving("--speed", "1", "--seed", "3") as running:
+    config = tmp_path_factory.mktemp("technician") / "plugpilot.toml"
+    config.write_text(QUICKLY_HOMED, encoding="utf-8")
+    with serving("--config", str(config), "--speed", "1", "--seed", "3") as running:
         page = browser.new_page()
         running.let_in(page.context)
         page.goto(f"{running.url}/technician")

@@ -45,7 +45,7 @@ def test_plugs_in_gently_precisely_and_almost_as_fast_as_the_joints_allow(seed: 
 
 def test_looks_from_elsewhere_when_the_label_is_out_of_the_first_picture() -> None:
     async def scenario(scene: Scene) -> None:
-        shift_car(scene.garage, y_mm=90.0)
+        shift_car(scene.garage, x_mm=-85.0, y_mm=20.0)
         job = await scene.carried_out(JobType.PLUG_IN)
         _assert_well_plugged_in(scene, job)
         looks = [event.data["found"] for event in await scene.events(job) if event.kind == "look"]
