@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from drivers.simulator import poses
-from drivers.simulator.plant import Plant, PlantState
+from drivers.simulator.truth import state_from_below
 from drivers.simulator.view import Pose
 from drivers.simulator.watching import plug_pose
 from drivers.simulator.world import SimulatedWorld
@@ -97,7 +97,7 @@ class SimulatedTechnician:
         supervisor, settings = self.services.supervisor, self.services.settings.insertion
         before, mated = self._guided(settings.depth_mm)
         async with supervisor.control("jog", "Simulated technician") as lease:
-            await supervisor.move_joints(lease, before)
+            await supervisor.move_from_below(lease, before)
             await supervisor.set_force_limit(lease, settings.force_limit_n)
             slowly = supervisor.limits.scaled(INSERTION_SPEED)
             await supervisor.follow(lease, plan_joint_move(slowly, before, mated))
@@ -120,7 +120,7 @@ class SimulatedTechnician:
         for _ in range(_ROUNDS):
             drawn = np.array([*alpha.inverse_many(geometry, platform), face_mm])
             board = built.correction.to_board_many(drawn) if built.correction else drawn
-            pierced_mm, before_mm = _aim(self.world.plant, board, socket)
+            pierced_mm, before_mm = _aim(self.world, board, socket)
             platform = platform - pierced_mm[:2] + beside_mm
             face_mm += before_mm
         mated = face_mm + depth_mm
@@ -131,16 +131,18 @@ class SimulatedTechnician:
         )
 
 
-def _aim(plant: Plant, board: Array, socket: Pose) -> tuple[NDArray[np.float64], float]:
+def _aim(world: SimulatedWorld, board: Array, socket: Pose) -> tuple[NDArray[np.float64], float]:
     """Where the plug's axis meets the socket's face, from its centre, and how far before it it is.
 
     Args:
-        plant: The robot as built.
-        board: Its joints, shape (3,) [mm].
+        world: With the robot as built.
+        board: Its joints, all come from below, shape (3,) [mm].
         socket: T_base_socket.
     """
+    play_mm = world.parameters.drives.backlash_mm
     joints = JointPosition(*board.tolist())
-    plug = plug_pose(plant, PlantState(0.0, joints, joints))
+    state = state_from_below(joints, world.surroundings.zero, play_mm)
+    plug = plug_pose(world.plant, state)
     axis, normal = plug[:3, 2], socket[:3, 2]
     to_face = socket[:3, 3] - plug[:3, 3]
     way_mm = float(to_face @ normal) / float(axis @ normal)

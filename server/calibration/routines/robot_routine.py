@@ -89,7 +89,7 @@ class RobotRoutine:
             result_of,
             self._looks,
             stand,
-            self._known(),
+            self._known(stand),
             made_by=self.by,
             duration_s=self._spent_s,
             source=f"{len(self._looks)} looks at the label of {self.vehicle.name}",
@@ -168,7 +168,7 @@ class RobotRoutine:
             seen=first.look, label_size_mm=self.vehicle.label_size_mm,
         )  # fmt: skip
         guess = Unknowns.guess(geometry, rotation, first.look.rho_mm, first.look.label_mm)
-        chosen = candidates[choose_places(candidates, guess, self._known(), CHOSEN)]
+        chosen = candidates[choose_places(candidates, guess, self._known(stand), CHOSEN)]
         here = np.array([first.joints.rho1_mm, first.joints.rho2_mm])
         ordered = chosen[in_travelling_order(chosen, here)]
         return [JointPosition(a, b, geometry.rho3.min_mm) for a, b in ordered.tolist()]
@@ -195,18 +195,21 @@ class RobotRoutine:
             self._looks.append(look)
         progress.looked(x_mm, y_mm, seen=look is not None)
 
-    def _known(self) -> KnownBefore:
-        """What the technician has measured, in place of what is usual."""
+    def _known(self, stand: Stand) -> KnownBefore:
+        """What the technician has measured, now or for the calibration in force, or is usual."""
         request = self.request
-        known: dict[str, float] = {
-            "label_ratio_sigma": request.label_sigma_mm / self.vehicle.label_size_mm
-        }
-        sigmas = []
-        for name, belt in (("left_scale", request.left_belt), ("right_scale", request.right_belt)):
+        in_force = stand.belts or (None, None)
+        belts = [
+            belt_scale(typed.commanded_mm, typed.measured_mm, typed.reading_sigma_mm)
+            if typed is not None
+            else before
+            for typed, before in zip((request.left_belt, request.right_belt), in_force, strict=True)
+        ]
+        known = {"label_ratio_sigma": request.label_sigma_mm / self.vehicle.label_size_mm}
+        for name, belt in zip(("left_scale", "right_scale"), belts, strict=True):
             if belt is not None:
-                measured = belt_scale(belt.commanded_mm, belt.measured_mm, belt.reading_sigma_mm)
-                known[name] = measured.value
-                sigmas.append(measured.sigma)
-        if len(sigmas) == len(("left", "right")):
-            known["scale_sigma"] = max(sigmas)
+                known[name] = belt.value
+        measured = [belt.sigma for belt in belts if belt is not None]
+        if len(measured) == len(belts):
+            known["scale_sigma"] = max(measured)
         return KnownBefore.model_validate(known)

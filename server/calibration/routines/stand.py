@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.robot import RobotState
+from server.calibration.axes.estimates import Estimate
 from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.errors import LabelLostError
 from server.calibration.versions.values import ValuesInForce
@@ -30,6 +31,8 @@ from twin.kinematics import KinematicsError, PlatformPosition, alpha
 Array = NDArray[np.float64]
 
 FRAMES = 3
+MEASURED = 1e-3
+"""A belt whose scale is known better than that was measured with a rule: looks cannot tell it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +70,24 @@ class Stand:
     def mechanism(self) -> PlanarAsBuilt:
         """The robot as far as known."""
         return self.in_force.mechanism or PlanarAsBuilt.as_drawn(self.supervisor.geometry)
+
+    @property
+    def belts(self) -> tuple[Estimate, Estimate] | None:
+        """Scale of both belts as a rule has told for the calibration in force; None: it has not.
+
+        What jobs have learnt since is no measurement: it begins from what it takes for measured.
+        """
+        mechanism, evidence = self.in_force.mechanism, self.evidence
+        if mechanism is None or evidence is None or evidence.provenance != "routine":
+            return None
+        sigmas = [evidence.sigma.get(name, math.inf) for name in ("left_scale", "right_scale")]
+        if max(sigmas) > MEASURED:
+            return None
+        left_sigma, right_sigma = sigmas
+        return (
+            Estimate(mechanism.left_scale, left_sigma),
+            Estimate(mechanism.right_scale, right_sigma),
+        )
 
     @property
     def board_rho_mm(self) -> Array:

@@ -41,7 +41,7 @@ export const remarks: CalibrationWords["remarks"] = {
   lag: (side, a) => `Der ${the(side)} Schlitten läuft ${a} mm nach, während er fährt.`,
   friction: (a) => `Der Schieber braucht ${a} N, um frei zu laufen: reinigen und fetten Sie seine Spindel.`,
   offset: (a) => `Ohne Kraft zeigt der Motorstrom ${a} N: etwas zieht am Schieber, etwa das Kabel.`,
-  scale: (a) => `Die gezeigte Kraft ist das ${a}-Fache der wahren: berichtigen Sie in den Einstellungen der Platine die Kraft des Motors für seinen Strom.`,
+  scale: (a) => `Die gezeigte Kraft ist das ${a}-Fache der wahren: nehmen Sie dies in Gebrauch, oder berichtigen Sie in den Einstellungen der Platine die Kraft des Motors für seinen Strom und messen Sie noch einmal.`,
   unknowns: {
     left_leg: "Länge des linken Beins",
     right_leg: "Länge des rechten Beins",

@@ -42,7 +42,7 @@ export const remarks: CalibrationWords["remarks"] = {
   lag: (side, a) => `Le chariot ${masculine(side)} a ${a} mm de retard pendant qu’il bouge.`,
   friction: (a) => `La glissière demande ${a} N pour bouger à vide\u00a0: nettoyez et graissez sa vis.`,
   offset: (a) => `Sans aucune force, le courant du moteur montre ${a} N\u00a0: quelque chose tire sur la glissière, le câble par exemple.`,
-  scale: (a) => `La force affichée vaut ${a} fois la vraie\u00a0: corrigez la force du moteur pour son courant dans les réglages de la carte.`,
+  scale: (a) => `La force affichée vaut ${a} fois la vraie\u00a0: mettez cette version en vigueur, ou corrigez la force du moteur pour son courant dans les réglages de la carte et recommencez.`,
   unknowns: {
     left_leg: "longueur de la jambe gauche",
     right_leg: "longueur de la jambe droite",

@@ -42,7 +42,7 @@ export const remarks: CalibrationWords["remarks"] = {
   lag: (side, a) => `Il carrello ${masculine(side)} è in ritardo di ${a} mm mentre si muove.`,
   friction: (a) => `La slitta richiede ${a} N per muoversi a vuoto: pulire e ingrassare la sua vite.`,
   offset: (a) => `Senza alcuna forza la corrente del motore mostra ${a} N: qualcosa tira la slitta, per esempio il cavo.`,
-  scale: (a) => `La forza mostrata è ${a} volte quella vera: correggere la forza del motore per la sua corrente nelle impostazioni della scheda.`,
+  scale: (a) => `La forza mostrata è ${a} volte quella vera: mettere in vigore questa versione, oppure correggere la forza del motore per la sua corrente nelle impostazioni della scheda e ripetere.`,
   unknowns: {
     left_leg: "lunghezza della gamba sinistra",
     right_leg: "lunghezza della gamba destra",
