@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from drivers.simulator import poses
+from drivers.simulator.car import ParkedCar
 from drivers.simulator.truth import state_from_below
 from drivers.simulator.view import Pose
 from drivers.simulator.watching import plug_pose
@@ -102,13 +103,19 @@ class SimulatedTechnician:
             slowly = supervisor.limits.scaled(INSERTION_SPEED)
             await supervisor.follow(lease, plan_joint_move(slowly, before, mated))
 
-    def park_elsewhere(self, most_mm: float) -> None:
-        """The same car comes again, as drivers park: shifted along the wall and in height."""
+    def park_elsewhere(self, most_mm: float, usual: ParkedCar | None = None) -> None:
+        """The same car comes again, as drivers park: shifted along the wall and in height.
+
+        Args:
+            most_mm: By so much at most.
+            usual: From there; None: from where it stands.
+        """
+        car = usual or self.world.car
         x_mm, y_mm = self.rng.uniform(-most_mm, most_mm, 2).tolist()
         turn = poses.rotation_y(float(self.rng.normal(0.0, math.radians(0.4))))
-        socket = self.world.car.T_base_socket[:3, 3]
+        socket = car.T_base_socket[:3, 3]
         about_socket = poses.pose(turn, socket + np.array([x_mm, y_mm, 0.0]) - turn @ socket)
-        self.world.put_car(self.world.car.moved(about_socket))
+        self.world.put_car(car.moved(about_socket))
 
     def _guided(self, depth_mm: float) -> tuple[JointPosition, JointPosition]:
         """Joints before the socket, and with the plug in it, so that it really goes in straight."""

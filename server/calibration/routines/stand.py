@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from drivers.robot import RobotState
 from server.calibration.axes.estimates import Estimate
 from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.errors import LabelLostError
+from server.calibration.routines.robot_memory import RobotMemory
 from server.calibration.versions.values import ValuesInForce
 from server.config.settings import Settings
 from server.control.errors import MotionOutOfReachError, RobotOfflineError
@@ -48,6 +49,7 @@ class Stand:
         as_taught: Puts the socket of a vehicle where it was taught.
         in_force: The numbers that count.
         evidence: What the calibration of the robot in force rests on, if anything.
+        remember: Keeps what a routine has collected, for a restart.
     """
 
     supervisor: Supervisor
@@ -58,6 +60,7 @@ class Stand:
     as_taught: Callable[[Vehicle], Vehicle]
     in_force: ValuesInForce
     evidence: RobotEvidence | None
+    remember: Callable[[RobotMemory], Awaitable[None]]
 
     @property
     def vehicle(self) -> Vehicle:

@@ -36,7 +36,7 @@ def known(
             looks=[], sigma=sigmas, unseen=[], duration_s=0.0, provenance=provenance
         )
     in_force = ValuesInForce(robot=values)
-    stand = Stand(NOTHING, NOTHING, NOTHING, None, NOTHING, NOTHING, in_force, evidence)
+    stand = Stand(NOTHING, NOTHING, NOTHING, None, NOTHING, NOTHING, in_force, evidence, NOTHING)
     return RobotRoutine(request, "Anna", SIZED)._known(stand)
 
 
