@@ -21,6 +21,7 @@ from server.config.errors import ConfigurationError
 from server.config.forces import loads_at_limits
 from server.config.settings import Settings
 from server.config.storage import StorageSettings
+from server.control.built_robot import BuiltRobot
 from server.control.jog import DEAD_MAN_S, Jog
 from server.control.path_check import Strength
 from server.control.seat import ANSWER_S, HOLD_S, ControlSeat
@@ -117,7 +118,7 @@ async def running(
             strength=Strength(
                 loads_at_limits(settings.loads, settings.insertion), settings.actuators
             ),
-            mechanism=known.mechanism,
+            built=BuiltRobot.of(settings.geometry, known.mechanism, known.force_scale),
         )
         if devices.followed is not None:
             let_follow(devices.followed.follower, supervisor)

@@ -36,6 +36,8 @@ SURELY = 1.96
 """Standard deviations that hold 95 % of true values."""
 PARKS_WITHIN_MM = 20.0
 """How far beside the taught place the car stands when it comes again."""
+PLAY_MM = 0.3
+"""Of each axis, in the routines and in the job: what belts and screws of a poor robot have."""
 _GRID, _DEPTHS = 7, 3
 
 
@@ -69,8 +71,12 @@ class SimulatedCalibration:
 
 def simulate_calibration(settings: Settings) -> SimulatedCalibration:
     """Build a robot by chance of the seed, calibrate it, and look at how it really is."""
-    parameters = settings.simulation.parameters.model_copy(
-        update={"build": before_calibration(settings.simulation.parameters.build)}
+    usual = settings.simulation.parameters
+    parameters = usual.model_copy(
+        update={
+            "build": before_calibration(usual.build),
+            "drives": usual.drives.model_copy(update={"backlash_mm": (PLAY_MM,) * 3}),
+        }
     )
     simulation = settings.simulation.model_copy(update={"parameters": parameters})
     with asyncio.Runner(loop_factory=VirtualTimeLoop) as runner:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from drivers.simulator import poses
-from drivers.simulator.plant import Plant, PlantState
+from drivers.simulator.car import ParkedCar
+from drivers.simulator.truth import state_from_below
 from drivers.simulator.view import Pose
 from drivers.simulator.watching import plug_pose
 from drivers.simulator.world import SimulatedWorld
@@ -97,18 +98,24 @@ class SimulatedTechnician:
         supervisor, settings = self.services.supervisor, self.services.settings.insertion
         before, mated = self._guided(settings.depth_mm)
         async with supervisor.control("jog", "Simulated technician") as lease:
-            await supervisor.move_joints(lease, before)
+            await supervisor.move_from_below(lease, before)
             await supervisor.set_force_limit(lease, settings.force_limit_n)
             slowly = supervisor.limits.scaled(INSERTION_SPEED)
             await supervisor.follow(lease, plan_joint_move(slowly, before, mated))
 
-    def park_elsewhere(self, most_mm: float) -> None:
-        """The same car comes again, as drivers park: shifted along the wall and in height."""
+    def park_elsewhere(self, most_mm: float, usual: ParkedCar | None = None) -> None:
+        """The same car comes again, as drivers park: shifted along the wall and in height.
+
+        Args:
+            most_mm: By so much at most.
+            usual: From there; None: from where it stands.
+        """
+        car = usual or self.world.car
         x_mm, y_mm = self.rng.uniform(-most_mm, most_mm, 2).tolist()
         turn = poses.rotation_y(float(self.rng.normal(0.0, math.radians(0.4))))
-        socket = self.world.car.T_base_socket[:3, 3]
+        socket = car.T_base_socket[:3, 3]
         about_socket = poses.pose(turn, socket + np.array([x_mm, y_mm, 0.0]) - turn @ socket)
-        self.world.put_car(self.world.car.moved(about_socket))
+        self.world.put_car(car.moved(about_socket))
 
     def _guided(self, depth_mm: float) -> tuple[JointPosition, JointPosition]:
         """Joints before the socket, and with the plug in it, so that it really goes in straight."""
@@ -120,7 +127,7 @@ class SimulatedTechnician:
         for _ in range(_ROUNDS):
             drawn = np.array([*alpha.inverse_many(geometry, platform), face_mm])
             board = built.correction.to_board_many(drawn) if built.correction else drawn
-            pierced_mm, before_mm = _aim(self.world.plant, board, socket)
+            pierced_mm, before_mm = _aim(self.world, board, socket)
             platform = platform - pierced_mm[:2] + beside_mm
             face_mm += before_mm
         mated = face_mm + depth_mm
@@ -131,16 +138,18 @@ class SimulatedTechnician:
         )
 
 
-def _aim(plant: Plant, board: Array, socket: Pose) -> tuple[NDArray[np.float64], float]:
+def _aim(world: SimulatedWorld, board: Array, socket: Pose) -> tuple[NDArray[np.float64], float]:
     """Where the plug's axis meets the socket's face, from its centre, and how far before it it is.
 
     Args:
-        plant: The robot as built.
-        board: Its joints, shape (3,) [mm].
+        world: With the robot as built.
+        board: Its joints, all come from below, shape (3,) [mm].
         socket: T_base_socket.
     """
+    play_mm = world.parameters.drives.backlash_mm
     joints = JointPosition(*board.tolist())
-    plug = plug_pose(plant, PlantState(0.0, joints, joints))
+    state = state_from_below(joints, world.surroundings.zero, play_mm)
+    plug = plug_pose(world.plant, state)
     axis, normal = plug[:3, 2], socket[:3, 2]
     to_face = socket[:3, 3] - plug[:3, 3]
     way_mm = float(to_face @ normal) / float(axis @ normal)

@@ -111,6 +111,20 @@ def mechanism_from_below(
     )
 
 
+def state_from_below(
+    joints: JointPosition, zero: JointPosition, play_mm: tuple[float, float, float]
+) -> PlantState:
+    """The plant at rest once all joints have come from below.
+
+    Args:
+        joints: Where the board has sent them.
+        zero: True positions of the motors when the board's coordinates read 0.
+        play_mm: Of each joint.
+    """
+    taken_up = (q + z - 0.5 * p for q, z, p in zip(joints, zero, play_mm, strict=True))
+    return PlantState(0.0, joints, JointPosition(*taken_up))
+
+
 def tip_from_below(
     plant: Plant, joints: JointPosition, zero: JointPosition, play_mm: tuple[float, float, float]
 ) -> TipPosition:
@@ -122,8 +136,7 @@ def tip_from_below(
         zero: True positions of the motors when the board's coordinates read 0.
         play_mm: Of each joint.
     """
-    taken_up = (q + z - 0.5 * p for q, z, p in zip(joints, zero, play_mm, strict=True))
-    return plant.tip(PlantState(0.0, joints, JointPosition(*taken_up)))
+    return plant.tip(state_from_below(joints, zero, play_mm))
 
 
 def lateral_at_face_mm(plug: Pose, socket: Pose) -> float:

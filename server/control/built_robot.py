@@ -31,6 +31,9 @@ FURTHEST_OFF_MM = 60.0
 """A carriage of a robot like the drawn one is nowhere further from where the drawing has it."""
 STANDS_SHARE = 0.9
 """Of the places where the drawn robot can stand, where the built one must."""
+GAUGE_SHARE = 1.5
+"""A force gauge that is off by more than this factor, either way, is broken, or its spring was
+another one."""
 _GRID = 12
 """Places along each carriage where the ratio of the speeds is looked at."""
 
@@ -55,20 +58,29 @@ class BuiltRobot:
         correction: Between the joints of drawing and board; None: built as drawn.
         speed_share: Of the board's speed limits that a plan may use: where the built carriage has
             to run faster than the drawn one, the board must still accept it.
+        force_scale: Force that the board shows over the true one.
     """
 
     correction: JointCorrection | None = None
     speed_share: float = 1.0
+    force_scale: float = 1.0
 
     @classmethod
-    def of(cls, drawn: RobotGeometry, mechanism: PlanarAsBuilt | None) -> Self:
-        """The robot with a calibrated mechanism, or as drawn without one.
+    def of(
+        cls, drawn: RobotGeometry, mechanism: PlanarAsBuilt | None, force_scale: float = 1.0
+    ) -> Self:
+        """The robot with a calibrated mechanism and force gauge, or as drawn without them.
 
         Raises:
             CalibrationUnusableError: no robot like the drawn one is built like that.
         """
+        if not 1.0 / GAUGE_SHARE <= force_scale <= GAUGE_SHARE:  # also NaN
+            raise CalibrationUnusableError(
+                f"The slide would show {force_scale:.2f} times the true force. Look at the motor's "
+                "current in the board's settings, and at the rate of the spring."
+            )
         if mechanism is None:
-            return cls()
+            return cls(force_scale=force_scale)
         correction = JointCorrection(drawn, mechanism)
         speed_share = 1.0 / _fastest(correction)
         if not speed_share >= SLOWEST_SHARE:  # also NaN
@@ -76,17 +88,19 @@ class BuiltRobot:
                 "A robot with these numbers would have to move its carriages quite differently "
                 "from the drawn one, or could not stand where that one can."
             )
-        return cls(correction, min(1.0, speed_share))
+        return cls(correction, min(1.0, speed_share), force_scale)
 
     def limits(self, of_board: MotionLimits) -> MotionLimits:
         """What motions are planned with."""
         return of_board if self.speed_share == 1.0 else of_board.scaled(self.speed_share)
 
     def seen(self, state: RobotState) -> RobotState:
-        """A sample of the board in joints of the drawing.
+        """A sample of the board in joints of the drawing, and in true newtons.
 
         Joints that belong to no pose of the robot, as before homing, stay as they are.
         """
+        if self.force_scale != 1.0:
+            state = replace(state, force_n=self.true_n(state.force_n))
         if self.correction is None:
             return state
         try:
@@ -97,6 +111,14 @@ class BuiltRobot:
         return replace(
             state, measured=MeasuredJoints(*measured), commanded=CommandedJoints(*commanded)
         )
+
+    def shown_n(self, true_n: float) -> float:
+        """What the board shows, and compares with its limit, where this force acts."""
+        return true_n * self.force_scale
+
+    def true_n(self, shown_n: float) -> float:
+        """The force where the board shows this one."""
+        return shown_n / self.force_scale
 
     def tail(self, step: Step) -> tuple[JointPosition, JointVelocity]:
         """Where a step ends, and how fast, in joints of the drawing: exactly where the board does.

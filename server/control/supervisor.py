@@ -39,7 +39,6 @@ from server.control.release import ReleaseCondition
 from server.control.stop_cause import StopCause
 from server.control.telemetry import Telemetry
 from server.timing import Calendar
-from twin.as_built import PlanarAsBuilt
 from twin.geometry import RobotGeometry
 from twin.motion import MotionLimits
 
@@ -56,7 +55,7 @@ class Supervisor(Mover):
         station: The charging station: the plug moves in a socket only while it shows no load.
         settings: Of the watchdogs.
         strength: What the robot carries, and what its actuators can.
-        mechanism: The robot as it was built; None: as drawn.
+        built: What is known of the robot as it was built; None: as drawn.
     """
 
     def __init__(
@@ -70,7 +69,7 @@ class Supervisor(Mover):
         station: StationDriver,
         settings: SupervisionSettings,
         strength: Strength = DEFAULT_STRENGTH,
-        mechanism: PlanarAsBuilt | None = None,
+        built: BuiltRobot | None = None,
     ) -> None:
         telemetry = Telemetry()
         plug = PlugGuard(plug_store, self._changed)
@@ -85,7 +84,7 @@ class Supervisor(Mover):
             hindrance=self.why_not_moving,
             identity=lambda: self._link.identity,
         )
-        self.built = BuiltRobot.of(geometry, mechanism)
+        self.built = built or self.built
         self._driver = driver
         self._witness = PlugWitness(plug, station, settings)
         self._desk = LeaseDesk(calendar)
@@ -283,20 +282,19 @@ class Supervisor(Mover):
             self._homing = False
         await self.plug.is_free()
 
-    def use_mechanism(self, lease: Lease, mechanism: PlanarAsBuilt | None) -> None:
-        """From now on the robot is built like this; None: as drawn. Nothing moves by it.
+    def use_built(self, lease: Lease, built: BuiltRobot) -> None:
+        """From now on the robot is built like this. Nothing moves by it.
 
         Raises:
             CalibrationHeldError: the plug is, or may be, in a socket, and its way out is known in
                 the joints that count now.
-            CalibrationUnusableError: no robot like the drawn one is built like that.
         """
         lease.require()
         if self.plug.state in HELD:
             raise CalibrationHeldError(
                 f"The plug is {self.plug.state.value}.", plug=self.plug.state.value
             )
-        self.built = BuiltRobot.of(self.geometry, mechanism)
+        self.built = built
         self._link.see_anew()
         self._changed()
 
@@ -320,9 +318,9 @@ class Supervisor(Mover):
         await self.release_fault(lease, FaultCode.STALL)
 
     async def set_force_limit(self, lease: Lease, force_n: float) -> None:
-        """Cap the insertion force on the board [N]."""
+        """Cap the insertion force on the board, in true newtons."""
         lease.require()
-        await self._board.command(lambda: self._driver.set_force_limit(force_n))
+        await self._board.command(lambda: self._driver.set_force_limit(self.built.shown_n(force_n)))
 
     # Inside
 
@@ -333,12 +331,11 @@ class Supervisor(Mover):
 
     async def _take_sample(self, state: RobotState) -> None:
         self._protection.take(state)
-        if self.board_state is not None:
-            self.play.follow(self.board_state)
         await settle_plug(self.plug, state, first=False)
         self._changed()
 
     def _seen(self, state: RobotState) -> RobotState:
+        self.play.follow(state)
         return self.built.seen(state)  # as it is built at that moment
 
     def _lost(self) -> None:

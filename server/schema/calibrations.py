@@ -97,7 +97,10 @@ class PlayValues(Wire):
 
 
 class ForceValues(Wire):
-    """The slide as its own force gauge. The watch over the plug goes on with the raw force."""
+    """The slide as its own force gauge, in newtons as the board shows them.
+
+    With the scale of a version in force, everybody but the board counts in true newtons.
+    """
 
     kind: Literal["force"] = "force"
     friction_n: Newtons = Field(description="Half of what differs between out and back")
@@ -109,6 +112,11 @@ class ForceValues(Wire):
     )
     scale_sigma: Spread | None = Field(None, description="Null: the scale was not measured")
     following_mm: Spread = Field(description="How far the slide lags behind its set point at most")
+
+    @property
+    def shown_per_true(self) -> float:
+        """Force that the board shows over the true one; 1 where no spring has told."""
+        return self.scale if self.scale_sigma is not None else 1.0
 
 
 CalibrationValues = Annotated[

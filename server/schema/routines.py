@@ -37,7 +37,9 @@ class RobotRoutineRequest(Wire):
     vehicle_id: LabelOwner = None
     left_belt: BeltReading | None = None
     right_belt: BeltReading | None = Field(
-        None, description="Without both the scale of everything is known to a quarter percent only"
+        None,
+        description="Null: as the calibration in force has it, if a rule has told. Without both "
+        "belts the scale of everything is known to a quarter percent only",
     )
     label_sigma_mm: Annotated[float, Field(ge=0.01, le=2, allow_inf_nan=False)] = Field(
         0.15, description="How exactly the side of the printed label was measured"

@@ -27,15 +27,19 @@ def main(jobs: int, stretch: float) -> None:
         services, world = scene.services, scene.garage.world
         geometry, as_drawn = services.settings.geometry, services.supervisor.built
         technician = SimulatedTechnician(services, world, np.random.default_rng(1))
-        began_s, failed = time.perf_counter(), 0
+        began_s, failed, usual = time.perf_counter(), 0, world.car
         print("jobs  learnt  belt_%  seen_%  ignored_mm  kept_mm  proven  versions  hints")
         for number in range(1, jobs + 1):
             mechanism = world.plant.mechanism
             scale = mechanism.left_scale * (1 + stretch / jobs)
             world.plant.mechanism = mechanism.model_copy(update={"left_scale": scale})
-            technician.park_elsewhere(PARKS_WITHIN_MM if number == 1 else PARKS_WITHIN_MM / 10)
+            technician.park_elsewhere(PARKS_WITHIN_MM, usual)
             for kind in (JobType.PLUG_IN, JobType.UNPLUG):
-                failed += (await scene.carried_out(kind)).error is not None
+                error = (await scene.carried_out(kind)).error
+                if error is not None:
+                    failed += 1
+                    print(f"job {number}, {kind.value}: {error.code}: {error.detail}", flush=True)
+                    break
             await services.self_calibration.settled()
             if number % 10 and number < jobs:
                 continue

@@ -21,6 +21,7 @@ class DriftMemory(BaseModel):
         belts: What the looks say.
         jobs_at_version: Jobs that had been learnt from when our newest version was made.
         insertions: What the pushes say, by vehicle.
+        force_scale: With which their forces were measured.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -31,3 +32,4 @@ class DriftMemory(BaseModel):
     belts: BeltMemory = BeltMemory()
     jobs_at_version: int = Field(0, ge=0)
     insertions: dict[str, Insertions] = Field(default_factory=dict)
+    force_scale: float = Field(1.0, gt=0)

@@ -184,6 +184,9 @@ class SelfCalibration:
 
     def _begin_anew_if_changed(self) -> None:
         """Somebody has put another calibration in force, or taken ours back: that one counts."""
+        scale = self._calibrations.in_force.force_scale
+        if scale != self._memory.force_scale:  # what was felt before counts in other newtons
+            self._memory = self._memory.model_copy(update={"force_scale": scale, "insertions": {}})
         in_force = self._calibrations.robot_in_force
         if in_force == self._memory.in_force_id:
             return
@@ -192,6 +195,7 @@ class SelfCalibration:
             measured_error_mm=self._calibrations.robot_error_mm,
             in_force_id=in_force,
             insertions=self._memory.insertions,
+            force_scale=scale,
         )
 
     @property

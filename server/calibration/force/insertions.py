@@ -138,7 +138,9 @@ def _compared(worst: tuple[float, int, float, float, float]) -> str:
 
 def _by_friction(felt: Insertions, force: ForceValues | None) -> MaintenanceHint | None:
     now_n = _free_n(felt.recent)
-    usual_n = force.friction_n + force.offset_n if force else _free_n(felt.first)
+    usual_n = _free_n(felt.first)
+    if force is not None:
+        usual_n = (force.friction_n + force.offset_n) / force.shown_per_true
     enough = len(felt.recent) >= COMPARED and (force or len(felt.first) >= BAND_FROM)
     if now_n is None or usual_n is None or not enough or now_n <= 2 * usual_n + HEAVIER_N:
         return None

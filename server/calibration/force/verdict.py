@@ -33,8 +33,8 @@ def judge_force(
         grades.append(_grade(off, GOOD_SCALE, USABLE_SCALE))
         if grades[-1] is not Grade.GOOD:
             remarks.append(
-                f"The shown force is {scale.value:.2f} times the true one: correct the motor's "
-                "force for its current in the board's settings."
+                f"The shown force is {scale.value:.2f} times the true one: put this in force, or "
+                "correct the motor's force for its current in the board's settings and repeat."
             )
     return worst(grades), tuple(remarks)
 

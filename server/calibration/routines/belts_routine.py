@@ -23,7 +23,7 @@ from server.calibration.routines.stand import Stand
 from server.calibration.versions.comparing import look_of
 from server.calibration.versions.service import NewCalibration
 from server.calibration.versions.values import rotation_vector
-from server.schema.calibrations import RobotValues
+from server.schema.calibrations import RobotEvidence, RobotValues
 from server.schema.routines import BeltsRoutineRequest, RoutineInput
 from twin.joints import JointPosition
 
@@ -134,4 +134,10 @@ class BeltsRoutine:
             ),
             error=math.sqrt(2) * self.request.reading_sigma_mm,
             error_in_use=float(np.abs(measured_mm - in_use * commanded_mm).max()),
+            evidence=RobotEvidence(
+                looks=[],
+                sigma={"left_scale": left.sigma, "right_scale": right.sigma},
+                unseen=[],
+                duration_s=0.0,
+            ),
         )

@@ -24,6 +24,8 @@ from server.calibration.routines.errors import (
 )
 from server.calibration.routines.figures import figures_of, verdict_of
 from server.calibration.routines.progress import Progress
+from server.calibration.routines.robot_memory import RobotMemory
+from server.calibration.routines.robot_routine import RobotRoutine
 from server.calibration.routines.routine import AnyRoutine
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.service import HOLDER, Calibrations, NewCalibration
@@ -44,6 +46,8 @@ _log = logging.getLogger(__name__)
 
 NOTE = "routine"
 """Under this name the newest routine is kept, for the next start."""
+LOOKS = "routine looks"
+"""Under this one what it has collected."""
 
 State = Literal["running", "interrupted", "finished", "failed", "cancelled"]
 
@@ -115,13 +119,16 @@ class RoutineDesk:
     async def start(self) -> None:
         """Say what became of the routine that was under way when PlugPilot ended.
 
-        What it had seen is gone: nobody knows whether the car has moved meanwhile. What it has
-        found is a version, or none: there is nothing in between.
+        Where the looks of it are kept it can be resumed: it looks first whether the label is where
+        it was. What any other had seen is gone. What it has found is a version, or none: there is
+        nothing in between.
         """
         before = await self._notes.read_as(Routine, NOTE)
         if before is None:
             return
         if before.state in {"running", "interrupted"}:
+            if await self._recall(before):
+                return
             lost = RoutineLostError(
                 "What it had seen is given up, because nobody knows whether the car has moved "
                 "meanwhile. Nothing was kept, and nothing was put in force."
@@ -131,6 +138,22 @@ class RoutineDesk:
             )
             await self._write(before)
         self._before = before
+
+    async def _recall(self, before: Routine) -> bool:
+        """Take up a routine whose looks are kept, if they are."""
+        memory = await self._notes.read_as(RobotMemory, LOOKS)
+        if memory is None or memory.begun_at != before.begun_at:
+            return False
+        known = {vehicle.id: vehicle for vehicle in await self._vehicles.all()}
+        if memory.vehicle_id not in known:
+            return False
+        vehicle = known[memory.vehicle_id]
+        self._routine = RobotRoutine.recalled(memory, before.begun_by, vehicle)
+        self._progress = Progress(
+            self._changed, before.doing, before.done, before.total, list(before.looks)
+        )
+        self._begun_at, self._state = before.begun_at, "interrupted"
+        return True
 
     def _show(self, routine: AnyRoutine) -> Routine:
         progress = self._progress
@@ -247,6 +270,7 @@ class RoutineDesk:
             in_force=self._calibrations.in_force,
             evidence=self._calibrations.robot_evidence,
             board=self.board,
+            remember=self._remember,
         )
         try:
             found = await routine.run(stand, self._progress)
@@ -271,6 +295,17 @@ class RoutineDesk:
             await self._notes.write(NOTE, routine.model_dump(mode="json"), self._calendar.now())
         except StorageError as error:
             _log.warning("how far the calibration is could not be kept: %s", error.detail)
+
+    async def _remember(self, memory: RobotMemory) -> None:
+        """For the next start, like ``_write``: how far it is, and what it rests on."""
+        if self._routine is None:
+            return
+        kept = memory.model_copy(update={"begun_at": self._begun_at})
+        try:
+            await self._notes.write(LOOKS, kept.model_dump(mode="json"), self._calendar.now())
+        except StorageError as error:
+            _log.warning("the looks of the calibration could not be kept: %s", error.detail)
+        await self._write(self._show(self._routine))
 
     async def _keep(self, found: NewCalibration | CheckResult) -> None:
         self._found = found

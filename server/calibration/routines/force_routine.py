@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from drivers.robot import RobotState
 from server.calibration.axes.estimates import Estimate
 from server.calibration.axes.following import FollowingWatch
 from server.calibration.force.gauge import (
@@ -41,6 +42,8 @@ class _ForceMetError(ControlError):
 class ForceRoutine:
     """One run; after an interruption everything is measured anew.
 
+    It measures what the board shows, whatever scale is in force.
+
     Attributes:
         request: What was asked for.
         by: Who asked.
@@ -70,7 +73,8 @@ class ForceRoutine:
             "force_clear",
             f"Let nothing stand within {request.stroke_mm:g} mm before the plug, then confirm.",
         )
-        await stand.supervisor.set_force_limit(stand.lease, BOARD_ENDS_AT_N)
+        board_ends_at_n = stand.supervisor.built.true_n(BOARD_ENDS_AT_N)
+        await stand.supervisor.set_force_limit(stand.lease, board_ends_at_n)
         out_n, back_n = await self._empty(stand, progress)
         friction, offset = friction_and_offset(out_n, back_n)
         scale = await self._against_spring(stand, progress, friction, offset)
@@ -143,7 +147,12 @@ class ForceRoutine:
         plan = plan_joint_move(
             supervisor.limits.scaled(SLOWLY), here, here._replace(rho3_mm=rho3_mm)
         )
-        await supervisor.follow(stand.lease, plan, watch.take)
+        built = supervisor.built
+
+        def as_shown(state: RobotState) -> None:
+            watch.take(replace(state, force_n=built.shown_n(state.force_n)))
+
+        await supervisor.follow(stand.lease, plan, as_shown)
 
     def _watch(self, end_at_n: float) -> StrokeWatch:
         return StrokeWatch(end_at_n, _ForceMetError, self._following)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import dataclass, field
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from server.calibration.robot.unknowns import Unknowns
 from server.calibration.routines.errors import LabelLostError, LabelMovedError
 from server.calibration.routines.places import places_with_label
 from server.calibration.routines.progress import Progress
+from server.calibration.routines.robot_memory import KeptLook, RobotMemory
 from server.calibration.routines.robot_result import result_of
 from server.calibration.routines.stand import Stand
 from server.calibration.routines.wiring import check_wiring
@@ -52,7 +54,7 @@ class _First:
 
 @dataclass(slots=True, eq=False)
 class RobotRoutine:
-    """One run; after an interruption ``run`` goes on with the places that are left.
+    """One run; after an interruption, a restart too, it goes on with the places that are left.
 
     Attributes:
         request: What was asked for.
@@ -67,6 +69,19 @@ class RobotRoutine:
     _looks: list[LabelLook] = field(default_factory=list)
     _left: list[JointPosition] | None = None
     _spent_s: float = 0.0
+
+    @classmethod
+    def recalled(cls, memory: RobotMemory, by: str, vehicle: Vehicle) -> Self:
+        """A routine that a restart has interrupted: it goes on with the places that are left."""
+        return cls(
+            memory.request,
+            by,
+            vehicle,
+            _First(memory.stood_at, np.array(memory.platform_mm), memory.first.look),
+            [kept.look for kept in memory.looks],
+            list(memory.left),
+            memory.spent_s,
+        )
 
     async def run(self, stand: Stand, progress: Progress) -> NewCalibration:
         """Collect what is missing, solve and judge.
@@ -89,7 +104,7 @@ class RobotRoutine:
             result_of,
             self._looks,
             stand,
-            self._known(),
+            self._known(stand),
             made_by=self.by,
             duration_s=self._spent_s,
             source=f"{len(self._looks)} looks at the label of {self.vehicle.name}",
@@ -98,6 +113,7 @@ class RobotRoutine:
     async def _collect(self, stand: Stand, progress: Progress) -> None:
         if self._left is None:
             self._left = await self._begin(stand, progress)
+            await self._remember(stand)
         else:
             await self._require_unmoved(stand, progress)
         progress.say("Looking at the label from many places.")
@@ -109,6 +125,7 @@ class RobotRoutine:
                 look = None
             self._left.pop(0)
             self._take(stand, progress, look)
+            await self._remember(stand)
         await self._require_unmoved(stand, progress)
         if len(self._looks) < FEWEST_LOOKS:
             raise LabelLostError(
@@ -116,6 +133,23 @@ class RobotRoutine:
                 f"{FEWEST_LOOKS} are needed.",
                 looks=len(self._looks),
             )
+
+    async def _remember(self, stand: Stand) -> None:
+        if self._first is None or self._left is None:
+            raise AssertionError("looks were kept before there was a place to come back to")
+        x_mm, y_mm = self._first.platform_mm.tolist()
+        await stand.remember(
+            RobotMemory(
+                request=self.request,
+                vehicle_id=self.vehicle.id,
+                stood_at=self._first.joints,
+                platform_mm=(x_mm, y_mm),
+                first=KeptLook.of(self._first.look),
+                looks=tuple(map(KeptLook.of, self._looks)),
+                left=tuple(self._left),
+                spent_s=self._spent_s,
+            )
+        )
 
     async def _begin(self, stand: Stand, progress: Progress) -> list[JointPosition]:
         progress.say("Looking for the label.")
@@ -168,7 +202,7 @@ class RobotRoutine:
             seen=first.look, label_size_mm=self.vehicle.label_size_mm,
         )  # fmt: skip
         guess = Unknowns.guess(geometry, rotation, first.look.rho_mm, first.look.label_mm)
-        chosen = candidates[choose_places(candidates, guess, self._known(), CHOSEN)]
+        chosen = candidates[choose_places(candidates, guess, self._known(stand), CHOSEN)]
         here = np.array([first.joints.rho1_mm, first.joints.rho2_mm])
         ordered = chosen[in_travelling_order(chosen, here)]
         return [JointPosition(a, b, geometry.rho3.min_mm) for a, b in ordered.tolist()]
@@ -195,18 +229,21 @@ class RobotRoutine:
             self._looks.append(look)
         progress.looked(x_mm, y_mm, seen=look is not None)
 
-    def _known(self) -> KnownBefore:
-        """What the technician has measured, in place of what is usual."""
+    def _known(self, stand: Stand) -> KnownBefore:
+        """What the technician has measured, now or for the calibration in force, or is usual."""
         request = self.request
-        known: dict[str, float] = {
-            "label_ratio_sigma": request.label_sigma_mm / self.vehicle.label_size_mm
-        }
-        sigmas = []
-        for name, belt in (("left_scale", request.left_belt), ("right_scale", request.right_belt)):
+        in_force = stand.belts or (None, None)
+        belts = [
+            belt_scale(typed.commanded_mm, typed.measured_mm, typed.reading_sigma_mm)
+            if typed is not None
+            else before
+            for typed, before in zip((request.left_belt, request.right_belt), in_force, strict=True)
+        ]
+        known = {"label_ratio_sigma": request.label_sigma_mm / self.vehicle.label_size_mm}
+        for name, belt in zip(("left_scale", "right_scale"), belts, strict=True):
             if belt is not None:
-                measured = belt_scale(belt.commanded_mm, belt.measured_mm, belt.reading_sigma_mm)
-                known[name] = measured.value
-                sigmas.append(measured.sigma)
-        if len(sigmas) == len(("left", "right")):
-            known["scale_sigma"] = max(sigmas)
+                known[name] = belt.value
+        measured = [belt.sigma for belt in belts if belt is not None]
+        if len(measured) == len(belts):
+            known["scale_sigma"] = max(measured)
         return KnownBefore.model_validate(known)

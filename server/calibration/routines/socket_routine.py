@@ -80,16 +80,17 @@ class SocketRoutine:
                 f"When the plug was drawn out, the label moved by {moved_mm:.2f} mm.",
                 moved_mm=round(moved_mm, 3),
             )
-        label = after if before is None else before
-        offset = offset_of(inverse(label) @ socket)
+        offset = offset_of(inverse(after if before is None else before) @ socket)
+        in_use = stand.as_taught(self.vehicle).socket
         return NewCalibration(
             values=SocketValues(vehicle_id=self.vehicle.id, socket=offset),
             made_by=self.by,
             source=f"The plug in the socket of {self.vehicle.name}"[:200],
             grade=Grade.USABLE if moved_mm is None else Grade.GOOD,
             remarks=_remarks(moved_mm),
-            error=moved_mm,
-            error_in_use=self._missed_mm(stand, label, socket),
+            # Both on the look that taught nothing; without one, only what was in use can be judged.
+            error=None if before is None else missed_mm(after, offset, socket),
+            error_in_use=missed_mm(after, in_use, socket),
         )
 
     async def _draw_out(self, stand: Stand) -> None:
@@ -114,11 +115,19 @@ class SocketRoutine:
         camera = base_from_camera(stand.supervisor.geometry, stand.eye.mount, joints)
         return np.asarray(camera @ seen.T_camera_label)
 
-    def _missed_mm(self, stand: Stand, label: Pose, socket: Pose) -> float:
-        """How far beside the taught place the one in use has the socket, across its axis."""
-        in_use = label @ label_from_socket(stand.as_taught(self.vehicle).socket)
-        off = in_use[:3, 3] - socket[:3, 3]
-        return float(np.linalg.norm(off - socket[:3, 2] * (off @ socket[:3, 2])))
+
+def missed_mm(T_base_label: Pose, offset: SocketOffset, T_base_socket: Pose) -> float:
+    """How far beside the socket this look at the label would lead, across the socket's axis [mm].
+
+    Args:
+        T_base_label: Where the label was seen.
+        offset: Where the socket should be beside it.
+        T_base_socket: Where it is.
+    """
+    led_to = T_base_label @ label_from_socket(offset)
+    off = led_to[:3, 3] - T_base_socket[:3, 3]
+    axis = T_base_socket[:3, 2]
+    return float(np.linalg.norm(off - axis * (off @ axis)))
 
 
 def mated_socket(geometry: RobotGeometry, mated: JointPosition, depth_mm: float) -> Pose:

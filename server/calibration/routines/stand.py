@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drivers.robot import RobotState
+from server.calibration.axes.estimates import Estimate
 from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.board_feed import BoardFeed
 from server.calibration.routines.errors import LabelLostError
+from server.calibration.routines.robot_memory import RobotMemory
 from server.calibration.versions.values import ValuesInForce
 from server.config.settings import Settings
 from server.control.errors import MotionOutOfReachError, RobotOfflineError
@@ -31,6 +33,8 @@ from twin.kinematics import KinematicsError, PlatformPosition, alpha
 Array = NDArray[np.float64]
 
 FRAMES = 3
+MEASURED = 1e-3
+"""A belt whose scale is known better than that was measured with a rule: looks cannot tell it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +51,7 @@ class Stand:
         in_force: The numbers that count.
         evidence: What the calibration of the robot in force rests on, if anything.
         board: Shows pictures of the board to whoever watches.
+        remember: Keeps what a routine has collected, for a restart.
     """
 
     supervisor: Supervisor
@@ -58,6 +63,7 @@ class Stand:
     in_force: ValuesInForce
     evidence: RobotEvidence | None
     board: BoardFeed
+    remember: Callable[[RobotMemory], Awaitable[None]]
 
     @property
     def vehicle(self) -> Vehicle:
@@ -70,6 +76,24 @@ class Stand:
     def mechanism(self) -> PlanarAsBuilt:
         """The robot as far as known."""
         return self.in_force.mechanism or PlanarAsBuilt.as_drawn(self.supervisor.geometry)
+
+    @property
+    def belts(self) -> tuple[Estimate, Estimate] | None:
+        """Scale of both belts as a rule has told for the calibration in force; None: it has not.
+
+        What jobs have learnt since is no measurement: it begins from what it takes for measured.
+        """
+        mechanism, evidence = self.in_force.mechanism, self.evidence
+        if mechanism is None or evidence is None or evidence.provenance != "routine":
+            return None
+        sigmas = [evidence.sigma.get(name, math.inf) for name in ("left_scale", "right_scale")]
+        if max(sigmas) > MEASURED:
+            return None
+        left_sigma, right_sigma = sigmas
+        return (
+            Estimate(mechanism.left_scale, left_sigma),
+            Estimate(mechanism.right_scale, right_sigma),
+        )
 
     @property
     def board_rho_mm(self) -> Array:

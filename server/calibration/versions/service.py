@@ -23,6 +23,7 @@ from server.calibration.versions.errors import (
 from server.calibration.versions.evidence import as_kept, camera_evidence_of, robot_evidence_of
 from server.calibration.versions.values import ValuesInForce, subject_of
 from server.config.settings import Settings
+from server.control.built_robot import BuiltRobot
 from server.control.finishing import finish
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
@@ -215,6 +216,7 @@ class Calibrations:
             CalibrationMisfitError: it belongs to another camera mode.
             ControlBusyError: a job, or somebody else, uses the robot.
             CalibrationHeldError: the plug is, or may be, in a socket.
+            CalibrationUnusableError: no robot like the drawn one is built like that.
         """
         async with self._changing:
             stored = await self._require(calibration_id)
@@ -273,7 +275,9 @@ class Calibrations:
         if self._supervisor is None:
             return
         values = _values_of(versions)
-        self._supervisor.use_mechanism(lease, values.mechanism)
+        geometry = self._supervisor.geometry
+        built = BuiltRobot.of(geometry, values.mechanism, values.force_scale)
+        self._supervisor.use_built(lease, built)
         self._tell_onlookers(values)
 
     def _tell_onlookers(self, values: ValuesInForce) -> None:

@@ -61,6 +61,11 @@ class ValuesInForce:
         """The built robot; None: as drawn."""
         return self.robot.mechanism if self.robot else None
 
+    @property
+    def force_scale(self) -> float:
+        """Force that the board shows over the true one; 1 where nobody has measured it."""
+        return self.force.shown_per_true if self.force is not None else 1.0
+
     def as_taught(self, vehicle: Vehicle) -> Vehicle:
         """A vehicle with its socket where it was taught, if it was."""
         for one in self.sockets:

@@ -58,7 +58,7 @@ def missed_mm(cell: RobotCell, target: JointPosition) -> float:
 
 async def calibrate(cell: RobotCell, mechanism: PlanarAsBuilt | None) -> None:
     async with cell.supervisor.control("calibration", "Test") as lease:
-        cell.supervisor.use_mechanism(lease, mechanism)
+        cell.supervisor.use_built(lease, BuiltRobot.of(GEOMETRY, mechanism))
 
 
 async def move(cell: RobotCell, target: JointPosition) -> None:
@@ -227,10 +227,30 @@ def test_nobody_changes_the_calibration_with_the_plug_in_a_socket_or_without_con
         async with cell.supervisor.control("calibration", "Test") as lease:
             pass
         with pytest.raises(ControlLostError):
-            cell.supervisor.use_mechanism(lease, None)
+            cell.supervisor.use_built(lease, BuiltRobot())
         assert cell.supervisor.built == BuiltRobot()
 
     in_cell(scenario, BADLY_BUILT, store=MemoryPlug(held))
+
+
+def test_a_gauge_that_is_off_counts_in_true_newtons_both_ways() -> None:
+    async def scenario(cell: RobotCell) -> None:
+        async with cell.supervisor.control("calibration", "Test") as lease:
+            cell.supervisor.use_built(lease, BuiltRobot.of(GEOMETRY, None, force_scale=1.25))
+            await cell.supervisor.set_force_limit(lease, 60.0)
+        board = cell.supervisor.board_state
+        assert board is not None
+        pushed = replace(board, force_n=50.0)
+        assert cell.supervisor.built.seen(pushed).force_n == pytest.approx(40.0)
+        assert cell.garage.world._force_limit_n == pytest.approx(75.0)
+
+    in_cell(scenario)
+
+
+@pytest.mark.parametrize("scale", [0.5, 1.6, float("nan")])
+def test_a_gauge_that_is_far_off_is_refused(scale: float) -> None:
+    with pytest.raises(CalibrationUnusableError):
+        BuiltRobot.of(GEOMETRY, None, scale)
 
 
 def test_the_map_and_its_velocities_go_both_ways() -> None:

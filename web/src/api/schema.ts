@@ -3546,7 +3546,9 @@ export interface components {
         };
         /**
          * ForceValues
-         * @description The slide as its own force gauge. The watch over the plug goes on with the raw force.
+         * @description The slide as its own force gauge, in newtons as the board shows them.
+         *
+         *     With the scale of a version in force, everybody but the board counts in true newtons.
          */
         readonly ForceValues: {
             /**
@@ -5516,7 +5518,7 @@ export interface components {
              */
             readonly label_sigma_mm?: number;
             readonly left_belt?: components["schemas"]["BeltReading"] | null;
-            /** @description Without both the scale of everything is known to a quarter percent only */
+            /** @description Null: as the calibration in force has it, if a rule has told. Without both belts the scale of everything is known to a quarter percent only */
             readonly right_belt?: components["schemas"]["BeltReading"] | null;
             /**
              * Vehicle Id

@@ -193,6 +193,15 @@ def test_friction_and_force_scale_from_strokes_and_a_spring() -> None:
         assert "times the true one" in kept.remarks[-1]
         assert scene.services.supervisor.plug.state in {PlugState.FREE, PlugState.PARKED}
 
+        await client.post(f"calibrations/{kept.id}/activation", json={})
+        assert scene.services.supervisor.built.force_scale == values.scale
+        await begun(client, kind="force", spring_n_mm=SPRING_N_MM, stroke_mm=10, strokes=2)
+        await confirmed(scene, "force_clear")
+        await confirmed(scene, "force_spring")
+        again = (await found(scene)).values
+        assert isinstance(again, ForceValues)
+        assert again.scale == pytest.approx(scale, abs=0.03), "it measures what the board shows"
+
     settings = with_parameters(
         contact={"jam_stiffness_n_mm": SPRING_N_MM}, drives={"force_scale_std": 0.25}
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from server.calibration.routines import stand
+from server.calibration.routines import robot_routine, stand
 from server.calibration.routines.errors import NoQuestionError, NoRoutineError
 from server.schema.routines import (
     BeltsRoutineRequest,
@@ -14,7 +14,7 @@ from server.schema.routines import (
     RobotRoutineRequest,
     RoutineAnswer,
 )
-from tests.support.garage import Scene, on_scene
+from tests.support.garage import Scene, on_scene, shift_car
 
 
 class PowerFailedError(Exception):
@@ -49,6 +49,46 @@ def test_after_a_restart_it_says_what_happened_and_nothing_has_changed(
             await services.routines.resume()
         with pytest.raises(NoRoutineError):
             services.routines.confirm(RoutineAnswer(code="belts_marked"))
+
+    with pytest.raises(PowerFailedError):
+        on_scene(first, seed=2, folder=tmp_path)
+    on_scene(second, seed=2, folder=tmp_path, parked=False)
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_looks_outlive_a_restart_unless_the_label_has_moved(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, moved: bool
+) -> None:
+    monkeypatch.setattr(stand, "FRAMES", 1)
+    monkeypatch.setattr(robot_routine, "CHOSEN", 6)
+    monkeypatch.setattr(robot_routine, "FEWEST_LOOKS", 8)
+
+    async def first(scene: Scene) -> None:
+        routines = scene.services.routines
+        await routines.begin(RobotRoutineRequest(), "Anna")
+        await scene.until(lambda: (r := routines.shown) is not None and r.done >= 6)
+        raise PowerFailedError
+
+    async def second(scene: Scene) -> None:
+        routines = scene.services.routines
+        routine = routines.shown
+        assert routine is not None
+        assert (routine.state, routine.begun_by) == ("interrupted", "Anna")
+        assert routine.done >= 5
+        assert len(routine.looks) == routine.done
+        if moved:
+            shift_car(scene.garage, x_mm=0.5)
+        await routines.resume()
+        await routines.wait()
+        routine = routines.shown
+        assert routine is not None
+        assert routine.state == ("failed" if moved else "finished")
+        assert (routine.calibration_id is None) is moved
+        if moved:
+            assert routine.problem is not None
+            assert routine.problem.code == "calibration_label_moved"
+        else:
+            assert routine.done <= 11, "only the places that were left, and the first one twice"
 
     with pytest.raises(PowerFailedError):
         on_scene(first, seed=2, folder=tmp_path)

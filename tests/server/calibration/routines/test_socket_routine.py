@@ -7,7 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from server.calibration.routines.socket_routine import SocketRoutine, mated_socket, offset_of
+from server.calibration.routines.socket_routine import (
+    SocketRoutine,
+    mated_socket,
+    missed_mm,
+    offset_of,
+)
 from server.calibration.routines.stand import Stand
 from server.config.settings import Settings
 from server.control.model import PlugState
@@ -61,6 +66,8 @@ def test_a_job_finds_the_taught_socket_again() -> None:
         found = await services.calibrations.get(routine.calibration_id)
         assert found.error_in_use is not None
         assert found.error_in_use > 1.0, "where the owner measured it, this robot misses it"
+        assert found.error is not None
+        assert found.error < 0.1, "on the same look, across the same axis"
         (vehicle,) = await services.vehicles.all()
         assert services.calibrations.as_taught(vehicle) == vehicle
         await services.calibrations.activate(found.id, by="Anna", accept_worse=False)
@@ -139,6 +146,19 @@ def test_the_offset_says_where_the_socket_is(
     )
     again = offset_of(label_from_socket(offset))
     assert list(again.model_dump().values()) == pytest.approx(list(offset.model_dump().values()))
+
+
+def test_taught_and_used_places_are_measured_alike() -> None:
+    socket = mated_socket(RobotGeometry(), JointPosition(150.0, 180.0, 120.0), 40.0)
+    taught = SocketOffset(x_mm=60.0, y_mm=5.0, z_mm=20.0, rotation_x_rad=0.1, rotation_y_rad=0.0)
+    label = socket @ np.linalg.inv(label_from_socket(taught))
+    assert missed_mm(label, taught, socket) == pytest.approx(0.0, abs=1e-9)
+    beside = taught.model_copy(update={"x_mm": 60.7})
+    assert missed_mm(label, beside, socket) == pytest.approx(0.7)
+    across, along = label_from_socket(taught)[:3, 1:3].T @ np.array([0.0, 0.0, 1.0])
+    deeper = taught.model_copy(update={"z_mm": 20.7})
+    assert missed_mm(label, deeper, socket) == pytest.approx(0.7 * abs(across))
+    assert abs(along) > 0.9
 
 
 def test_the_socket_of_a_mated_plug_lies_behind_the_tip() -> None:

@@ -111,6 +111,6 @@ export const fields: CalibrationWords["fields"] = {
 };
 
 export const fieldHints: CalibrationWords["fieldHints"] = {
-  belts: "Lassen Sie leer, was nicht gemessen wurde: der Maßstab ist dann nur auf ein viertel Prozent bekannt.",
+  belts: "Lassen Sie leer, was die Messung der Riemen ergeben hat und in Gebrauch ist. Ohne beides ist der Maßstab nur auf ein viertel Prozent bekannt.",
   spring: "Ohne Feder lassen Sie die Federrate leer: die Reibung wird trotzdem gemessen.",
 };

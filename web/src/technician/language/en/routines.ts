@@ -110,6 +110,6 @@ export const fields = {
 };
 
 export const fieldHints = {
-  belts: "Leave empty what was not measured: the scale is then known to a quarter percent only.",
+  belts: "Leave empty what the routine for the belts has measured and is in use. Without either, the scale is known to a quarter percent only.",
   spring: "Leave the rate empty if there is no spring: friction is measured all the same.",
 };

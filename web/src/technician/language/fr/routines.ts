@@ -111,6 +111,6 @@ export const fields: CalibrationWords["fields"] = {
 };
 
 export const fieldHints: CalibrationWords["fieldHints"] = {
-  belts: "Laissez vide ce qui n’a pas été mesuré\u00a0: l’échelle n’est alors connue qu’à un quart de pour cent.",
+  belts: "Laissez vide ce que la mesure des courroies a donné et qui est utilisé. Sans l’un ni l’autre, l’échelle n’est connue qu’à un quart de pour cent.",
   spring: "Sans ressort, laissez la raideur vide\u00a0: le frottement est mesuré quand même.",
 };

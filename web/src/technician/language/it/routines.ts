@@ -111,6 +111,6 @@ export const fields: CalibrationWords["fields"] = {
 };
 
 export const fieldHints: CalibrationWords["fieldHints"] = {
-  belts: "Lasciare vuoto ciò che non è stato misurato: la scala si conosce allora solo a un quarto di percento.",
+  belts: "Lasciare vuoto ciò che la misura delle cinghie ha dato e che è in uso. Senza l’uno né l’altro, la scala si conosce solo a un quarto di percento.",
   spring: "Senza molla lasciare vuota la rigidezza: l’attrito si misura comunque.",
 };
