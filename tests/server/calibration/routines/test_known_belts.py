@@ -36,7 +36,8 @@ def known(
             looks=[], sigma=sigmas, unseen=[], duration_s=0.0, provenance=provenance
         )
     in_force = ValuesInForce(robot=values)
-    stand = Stand(NOTHING, NOTHING, NOTHING, None, NOTHING, NOTHING, in_force, evidence, NOTHING)
+    nothing = (NOTHING, NOTHING)
+    stand = Stand(NOTHING, NOTHING, NOTHING, None, *nothing, in_force, evidence, *nothing)
     return RobotRoutine(request, "Anna", SIZED)._known(stand)
 
 
