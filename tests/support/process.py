@@ -27,7 +27,7 @@ from server.config.storage import StorageSettings
 
 READY = "PlugPilot is ready: "
 INVITATION = "Pair your browser, once: "
-START_TIMEOUT_S = 60.0
+START_TIMEOUT_S = 180.0
 ANSWER_TIMEOUT_S = 60.0
 STOP_TIMEOUT_S = 60.0
 """Patience with a busy machine; what the server promises is in tests/server/test_serving.py."""
