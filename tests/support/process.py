@@ -159,6 +159,7 @@ def start(*options: str, data_dir: Path, cwd: Path) -> ServerProcess:
     if not line.startswith(READY):
         process.kill()
         process.wait()
+        process.stdout.close()
         raise AssertionError(f"the server did not start; it printed {line!r}")
     return ServerProcess(
         process, line.removeprefix(READY).strip(), time.perf_counter() - launched_s, data_dir
