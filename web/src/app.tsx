@@ -1,5 +1,7 @@
+import { useComputed } from "@preact/signals";
 import { ControlNotice, ControlQuestion } from "@/control/notices";
 import { GuidanceCard } from "@/guidance/card";
+import { store } from "@/live/page";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { GuideDialog } from "@/parts/guide";
 import { Header } from "@/parts/header";
@@ -22,10 +24,12 @@ import { Views } from "@/parts/views";
 export function App() {
   useStopKey();
   useTitle();
+  // Which cards there are is not known before: what would jump is not shown yet.
+  const known = useComputed(() => store.live.value !== null || store.unreachable.value);
   return (
     <>
       <Header />
-      <main class="page">
+      <main class="page" data-known={known.value}>
         <div class="column">
           <GuidanceCard />
           <Hero />

@@ -9,7 +9,9 @@ const running = computed(() => store.live.value?.service.version ?? null);
 const seen = signal(kept("localStorage", KEPT_AS));
 
 /** The version that is new here; null when somebody has seen it. */
-export const updatedTo = computed(() => (seen.value === running.value ? null : running.value));
+export const updatedTo = computed(() =>
+  seen.value === null || seen.value === running.value ? null : running.value,
+);
 
 /** Somebody wants to read what is new. */
 export const newsWanted = signal(false);
