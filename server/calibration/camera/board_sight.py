@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
 from server.calibration.camera.board_views import FEWEST_CORNERS, FEWEST_MARKERS, BoardView
-from server.calibration.camera.sharpness import blur_px
+from server.calibration.camera.sharpness import Sharpness, sharpness_of
 from server.labels.board_layout import BoardLayout
 
 Image = NDArray[np.uint8]
@@ -48,14 +48,14 @@ class BoardSight:
         view: The corners; None: fewer than twelve.
         strange: The markers are not arranged as on the board that is looked for.
         held: None: without a view.
-        blur_px: Standard deviation of the blur; None: without a view.
+        sharpness: Of its edges; None: without a view, or not to be told.
     """
 
     markers: int
     view: BoardView | None = None
     strange: bool = False
     held: Held | None = None
-    blur_px: float | None = None
+    sharpness: Sharpness | None = None
 
     @property
     def outline_px(self) -> list[tuple[float, float]]:
@@ -102,8 +102,8 @@ class BoardFinder:
         missed_mm = _flatness_mm(view)
         if missed_mm > STRANGE_SHARE * self.layout.square_mm:
             return BoardSight(markers, strange=True)
-        blur = blur_px(image, view, self.layout.square_mm)
-        return BoardSight(markers, view, held=self._held(view), blur_px=blur)
+        sharpness = sharpness_of(image, view, self.layout.square_mm)
+        return BoardSight(markers, view, held=self._held(view), sharpness=sharpness)
 
     def _held(self, view: BoardView) -> Held:
         optics, layout = self._optics, self.layout

@@ -27,7 +27,9 @@ NEAR, FAR = 1.2, 1.55
 
 STILL_SHARE_S = 0.012
 """Of the picture's width in a second: with a shutter of 30 ms the rows are then off by 0.5 px."""
-BLURRED_PX = 2.0
+BLURRED_PX, BLURRED_SHARE = 2.0, 0.045
+"""With more blur, or more of it in a square's side, corners are found less exactly and markers are
+lost. More than 0.06 of a side cannot be measured."""
 NEW_PLACE, NEW_ANGLE_RAD, NEW_DISTANCE = 0.25, math.radians(9.0), 0.15
 """A view that differs by less than all of these from one that was kept tells nothing new."""
 
@@ -102,7 +104,7 @@ class BoardCollection:
             return "show_more" if sight.markers else "no_board"
         if before is None or self._speed(before, at_s, view) > STILL_SHARE_S:
             return "moving"
-        if sight.blur_px is None or sight.blur_px > BLURRED_PX:
+        if _is_blurred(sight):
             return "blurred"
         if any(_alike(held, other) for other in self._held):
             return "known"
@@ -144,6 +146,11 @@ class BoardCollection:
 
     def _count(self, attitude: BoardAttitude) -> int:
         return sum(_is_held(held, attitude, self._held[0]) for held in self._held)
+
+
+def _is_blurred(sight: BoardSight) -> bool:
+    seen = sight.sharpness
+    return seen is None or seen.blur_px > min(BLURRED_PX, BLURRED_SHARE * seen.square_px)
 
 
 def _by_corner(view: BoardView) -> dict[tuple[float, float], NDArray[np.float64]]:

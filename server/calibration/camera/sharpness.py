@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +19,20 @@ LEAST_STEP = 20.0
 """Grey values between black and white; with less there is no edge to speak of."""
 
 
-def blur_px(image: NDArray[np.uint8], view: BoardView, square_mm: float) -> float | None:
-    """Standard deviation of the blur of the board's edges; None: too few can be measured.
+class Sharpness(NamedTuple):
+    """How the edges of the squares look.
+
+    Attributes:
+        blur_px: Standard deviation of their blur.
+        square_px: Length of an edge, the median.
+    """
+
+    blur_px: float
+    square_px: float
+
+
+def sharpness_of(image: NDArray[np.uint8], view: BoardView, square_mm: float) -> Sharpness | None:
+    """Blur of the board's edges; None: too few can be measured.
 
     Profiles across the middle of every edge between two corners, brought to one height and
     averaged, are the integral of the blur: its second moment is what the gradient's is. A profile
@@ -34,7 +48,8 @@ def blur_px(image: NDArray[np.uint8], view: BoardView, square_mm: float) -> floa
         return None
     along = view.image_px[second] - view.image_px[first]
     length = np.linalg.norm(along, axis=1)
-    reach_px = REACH * float(np.median(length))
+    square_px = float(np.median(length))
+    reach_px = REACH * square_px
     normal = np.column_stack((-along[:, 1], along[:, 0])) / length[:, None]
     middle = 0.5 * (view.image_px[first] + view.image_px[second])
     t_px = np.linspace(-reach_px, reach_px, SAMPLES)
@@ -51,7 +66,8 @@ def blur_px(image: NDArray[np.uint8], view: BoardView, square_mm: float) -> floa
     slope = np.clip(np.diff(np.median(rising, axis=0)), 0.0, None)
     between = 0.5 * (t_px[1:] + t_px[:-1])
     mean = float(slope @ between) / float(slope.sum())
-    return float(np.sqrt(slope @ (between - mean) ** 2 / slope.sum()))
+    blur_px = float(np.sqrt(slope @ (between - mean) ** 2 / slope.sum()))
+    return Sharpness(blur_px, square_px)
 
 
 def _edges(view: BoardView, square_mm: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

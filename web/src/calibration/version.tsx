@@ -83,8 +83,6 @@ function Version({ version, title, figures }: VersionProps) {
       <Numbers version={version} folded={figures.length > 0} />
       <p class="soft small">
         {say.result.madeBy(made_by, formatDate(made_at))}
-        {camera_evidence != null &&
-          ` · ${say.board.restsOn(camera_evidence.views.length, formatNumber(camera_evidence.rms_px, 2))}`}
         {evidence !== null && ` · ${say.result.looks(evidence.looks.length, formatDuration(evidence.duration_s))}`}
       </p>
     </>

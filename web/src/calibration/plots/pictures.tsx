@@ -28,7 +28,7 @@ export function Pictures({ evidence }: { evidence: CameraEvidence }) {
             return (
               <rect
                 key={number}
-                class={used ? "view" : "view outlier"}
+                class={used ? "shot" : "shot outlier"}
                 x={number * BAR + 3}
                 y={HEIGHT - height}
                 width={BAR - 6}
@@ -40,7 +40,7 @@ export function Pictures({ evidence }: { evidence: CameraEvidence }) {
           <line class="level" x1="0" x2={width} y1={level} y2={level} />
         </svg>
         <figcaption>
-          <span class="key view">{say.board.counts}</span>
+          <span class="key shot">{say.board.counts}</span>
           {views.some(({ used }) => !used) && <span class="key outlier">{say.board.leftOut}</span>}
           <span>{say.board.restsOn(views.filter(({ used }) => used).length, formatNumber(evidence.rms_px, 2))}</span>
         </figcaption>

@@ -6,7 +6,7 @@ export const board: CalibrationWords["board"] = {
   alt: "Was die Kamera des Roboters sieht; gefundene Ecken der Tafel sind markiert",
   views: (taken, wanted) => `Bild ${String(taken)} von ${String(wanted)}`,
   notices: {
-    no_board: "Keine Tafel zu sehen",
+    no_board: "Keine Tafel zu sehen, oder zu dunkel oder unscharf",
     other_board: "Das sind die Zeichen einer anderen Tafel",
     show_more: "Mehr von der Tafel zeigen",
     moving: "Still halten",

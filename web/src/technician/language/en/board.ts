@@ -5,7 +5,7 @@ export const board = {
   alt: "What the robot’s camera sees; the corners of the board that were found are marked",
   views: (taken: number, wanted: number): string => `Picture ${String(taken)} of ${String(wanted)}`,
   notices: {
-    no_board: "No board in sight",
+    no_board: "No board in sight, or too dark or blurred",
     other_board: "These are the markers of another board",
     show_more: "Show more of the board",
     moving: "Hold it still",

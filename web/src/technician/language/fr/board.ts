@@ -6,7 +6,7 @@ export const board: CalibrationWords["board"] = {
   alt: "Ce que voit la caméra du robot\u00a0; les coins trouvés de la mire sont marqués",
   views: (taken, wanted) => `Image ${String(taken)} sur ${String(wanted)}`,
   notices: {
-    no_board: "Aucune mire en vue",
+    no_board: "Aucune mire en vue, ou trop sombre ou floue",
     other_board: "Ce sont les marques d’une autre mire",
     show_more: "Montrez davantage de la mire",
     moving: "Tenez-la immobile",

@@ -6,7 +6,7 @@ export const board: CalibrationWords["board"] = {
   alt: "Ciò che vede la telecamera del robot; gli angoli trovati della tavola sono segnati",
   views: (taken, wanted) => `Immagine ${String(taken)} di ${String(wanted)}`,
   notices: {
-    no_board: "Nessuna tavola in vista",
+    no_board: "Nessuna tavola in vista, o troppo scura o sfocata",
     other_board: "Questi sono i segni di un’altra tavola",
     show_more: "Mostrare di più della tavola",
     moving: "Tenerla ferma",
