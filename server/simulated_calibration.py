@@ -12,7 +12,11 @@ from numpy.typing import NDArray
 from drivers.simulator.parameters import BuildErrors
 from drivers.simulator.truth import mechanism_from_below, tip_from_below
 from drivers.simulator.world import SimulatedWorld
+from server.calibration.robot.known_before import KnownBefore
+from server.calibration.robot.solve import solve_robot
 from server.calibration.robot.unknowns import MECHANISM, NAMES, mechanism_values
+from server.calibration.routines.known import known_before
+from server.calibration.versions.comparing import look_of
 from server.composition import running
 from server.config.settings import Settings
 from server.control.built_robot import BuiltRobot
@@ -34,6 +38,8 @@ Array = NDArray[np.float64]
 TECHNICIAN = "Simulated technician"
 SURELY = 1.96
 """Standard deviations that hold 95 % of true values."""
+CHI_SQUARED_7 = 14.067
+"""Squared whitened length that holds 95 % of true sets of seven."""
 PARKS_WITHIN_MM = 20.0
 """How far beside the taught place the car stands when it comes again."""
 PLAY_MM = 0.3
@@ -53,6 +59,7 @@ class SimulatedCalibration:
             that did not succeed.
         found: The calibration; None if there is none.
         inside: How many of the seven numbers of the mechanism lie within the stated 95 %.
+        jointly: All seven together lie within the stated 95 %.
         poses: From how many the robot looked.
         trouble: What did not succeed; "" if all did.
         wall_s: Computing time.
@@ -64,6 +71,7 @@ class SimulatedCalibration:
     lateral_mm: float | None
     found: CalibrationDetail | None
     inside: int | None
+    jointly: bool | None
     poses: int
     trouble: str
     wall_s: float
@@ -125,6 +133,25 @@ def numbers_inside(world: SimulatedWorld, geometry: RobotGeometry, found: Calibr
     return int(np.sum(np.abs(off) < SURELY * sigma))
 
 
+def jointly_inside(
+    world: SimulatedWorld, settings: Settings, found: CalibrationDetail, known: KnownBefore
+) -> bool:
+    """Whether the true mechanism lies in the ellipsoid that holds it in 95 of 100 cases.
+
+    Its covariance is not kept: the looks are solved once more.
+    """
+    if found.evidence is None:
+        raise InternalError("This is no calibration of a robot.")
+    drawn = settings.geometry
+    looks = [look_of(record) for record in found.evidence.looks]
+    solution = solve_robot(looks, drawn, settings.camera.mount.T_platform_camera[:3, :3], known)
+    play_mm = world.parameters.drives.backlash_mm
+    built = mechanism_from_below(world.plant, world.surroundings.zero, play_mm)
+    off = mechanism_values(solution.unknowns.built, drawn) - mechanism_values(built, drawn)
+    surprise = off @ np.linalg.solve(solution.covariance[MECHANISM, MECHANISM], off)
+    return float(surprise) < CHI_SQUARED_7
+
+
 def fitted_distance_mm(there: Array, wanted: Array) -> Array:
     """Distances of points, shape (n, 3), after the rigid motion that suits best, shape (n,)."""
     a, b = there - there.mean(axis=0), wanted - wanted.mean(axis=0)
@@ -160,7 +187,9 @@ async def _simulate(settings: Settings) -> SimulatedCalibration:
         before = tip_errors_mm(garage.world, settings.geometry, supervisor.built)
         camera = technician.camera_calibration(garage.camera.optics, TECHNICIAN)
         await _put_in_force(services, (await services.calibrations.keep(camera)).id)
-        routine = await _carried_out(services, technician.request())
+        request = technician.request()
+        known = known_before(request, garage.world.car.label_size_mm, None)
+        routine = await _carried_out(services, request)
         after, found, lateral_mm, trouble = None, None, None, _trouble(routine)
         if routine.calibration_id is not None:
             found = await services.calibrations.get(routine.calibration_id)
@@ -176,6 +205,7 @@ async def _simulate(settings: Settings) -> SimulatedCalibration:
         lateral_mm=lateral_mm,
         found=found,
         inside=numbers_inside(garage.world, settings.geometry, found) if found else None,
+        jointly=jointly_inside(garage.world, settings, found, known) if found else None,
         poses=routine.done,
         trouble=trouble,
         wall_s=time.perf_counter() - began,

@@ -14,12 +14,12 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from server.calibration.axes.estimates import belt_scale
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
 from server.calibration.robot.poses import choose_places, in_travelling_order
 from server.calibration.robot.unknowns import Unknowns
 from server.calibration.routines.errors import LabelLostError, LabelMovedError
+from server.calibration.routines.known import known_before
 from server.calibration.routines.places import places_with_label
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_memory import KeptLook, RobotMemory
@@ -230,20 +230,4 @@ class RobotRoutine:
         progress.looked(x_mm, y_mm, seen=look is not None)
 
     def _known(self, stand: Stand) -> KnownBefore:
-        """What the technician has measured, now or for the calibration in force, or is usual."""
-        request = self.request
-        in_force = stand.belts or (None, None)
-        belts = [
-            belt_scale(typed.commanded_mm, typed.measured_mm, typed.reading_sigma_mm)
-            if typed is not None
-            else before
-            for typed, before in zip((request.left_belt, request.right_belt), in_force, strict=True)
-        ]
-        known = {"label_ratio_sigma": request.label_sigma_mm / self.vehicle.label_size_mm}
-        for name, belt in zip(("left_scale", "right_scale"), belts, strict=True):
-            if belt is not None:
-                known[name] = belt.value
-        measured = [belt.sigma for belt in belts if belt is not None]
-        if len(measured) == len(belts):
-            known["scale_sigma"] = max(measured)
-        return KnownBefore.model_validate(known)
+        return known_before(self.request, self.vehicle.label_size_mm, stand.belts)

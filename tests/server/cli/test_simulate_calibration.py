@@ -24,6 +24,7 @@ def figures(seed: int, *, after: bool = True) -> SimulatedCalibration:
         lateral_mm=0.05 if after else None,
         found=None,
         inside=7 if after else None,
+        jointly=True if after else None,
         poses=25,
         trouble="" if after else "The label has moved.",
         wall_s=1.0,
@@ -69,7 +70,7 @@ def test_one_robot_is_shown_before_and_after(computed: list[int]) -> None:
 
 def test_the_summary_counts_what_failed() -> None:
     document = {"before_mm": [1, 2, 3], "after_mm": [0.1, 0.2, 0.3], "lateral_mm": 0.04}
-    document |= {"robot_s": 30.0, "poses": 25, "inside": 6, "tip_at_most_mm": 0.25}
+    document |= {"robot_s": 30.0, "poses": 25, "inside": 6, "jointly": True, "tip_at_most_mm": 0.25}
     text = as_summary([document, {**document, "lateral_mm": None}])
     assert "1 of 2 robots" in text
     assert "0.040" in text

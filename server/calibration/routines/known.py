@@ -1,0 +1,37 @@
+"""What is known before the robot's routine looks: typed in now, in force, or usual."""
+
+from __future__ import annotations
+
+from server.calibration.axes.estimates import Estimate, belt_scale
+from server.calibration.robot.known_before import KnownBefore
+from server.schema.routines import RobotRoutineRequest
+
+
+def known_before(
+    request: RobotRoutineRequest,
+    label_size_mm: float,
+    in_force: tuple[Estimate, Estimate] | None,
+) -> KnownBefore:
+    """What the technician has measured, now or for the calibration in force, or is usual.
+
+    Args:
+        request: With what was typed in.
+        label_size_mm: As entered.
+        in_force: Scale of both belts; None: no rule has told.
+    """
+    belts = [
+        belt_scale(typed.commanded_mm, typed.measured_mm, typed.reading_sigma_mm)
+        if typed is not None
+        else before
+        for typed, before in zip(
+            (request.left_belt, request.right_belt), in_force or (None, None), strict=True
+        )
+    ]
+    known = {"label_ratio_sigma": request.label_sigma_mm / label_size_mm}
+    for name, belt in zip(("left_scale", "right_scale"), belts, strict=True):
+        if belt is not None:
+            known[name] = belt.value
+    measured = [belt.sigma for belt in belts if belt is not None]
+    if len(measured) == len(belts):
+        known["scale_sigma"] = max(measured)
+    return KnownBefore.model_validate(known)
