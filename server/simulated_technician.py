@@ -20,7 +20,7 @@ from server.calibration.camera.board_views import find_board
 from server.calibration.camera.coverage import coverage_map
 from server.calibration.camera.solve import solve_camera
 from server.calibration.camera.verdict import judge
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.labels.board_layout import BoardLayout
 from server.schema.calibrations import CameraValues
 from server.schema.routines import BeltReading, RobotRoutineRequest

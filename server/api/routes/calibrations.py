@@ -14,7 +14,7 @@ from server.api.problems import problem_responses
 from server.calibration.routines.check_record import with_verdict
 from server.calibration.routines.described import ROUTINES
 from server.calibration.versions.errors import CheckNotFoundError
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.calibration.view import calibration_view
 from server.schema.accuracy import AccuracyCheck, AccuracyCheckPage
 from server.schema.calibrations import (

@@ -15,7 +15,8 @@ from server.calibration.drift.memory import NOTE, DriftMemory
 from server.calibration.drift.observing import JobObserver, Observation
 from server.calibration.force.insertions import Insertions, hints_of
 from server.calibration.grade import Grade
-from server.calibration.versions.service import Calibrations, NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
+from server.calibration.versions.service import Calibrations
 from server.calibration.versions.values import rotation_vector
 from server.config.settings import Settings
 from server.control.errors import ControlError

@@ -21,7 +21,7 @@ from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_result import result_of
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.comparing import look_of
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.calibration.versions.values import rotation_vector
 from server.schema.calibrations import RobotEvidence, RobotValues
 from server.schema.routines import BeltsRoutineRequest, RoutineInput

@@ -23,7 +23,7 @@ from server.calibration.routines.board_feed import jpeg_of
 from server.calibration.routines.errors import BoardBlurredError, TooFewViewsError
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.labels.board_layout import BoardLayout
 from server.schema.board import BoardLook, BoardNotice
 from server.schema.calibrations import CameraEvidence, CameraValues, CameraViewRecord

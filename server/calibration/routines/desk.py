@@ -28,7 +28,8 @@ from server.calibration.routines.robot_memory import RobotMemory
 from server.calibration.routines.robot_routine import RobotRoutine
 from server.calibration.routines.routine import AnyRoutine
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import HOLDER, Calibrations, NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
+from server.calibration.versions.service import HOLDER, Calibrations
 from server.config.settings import Settings
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor

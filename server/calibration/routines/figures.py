@@ -5,7 +5,7 @@ from __future__ import annotations
 from server.calibration.accuracy.verdict import judge_places
 from server.calibration.grade import Grade
 from server.calibration.routines.check_routine import CheckResult
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.schema.calibrations import (
     CalibrationKind,
     CameraValues,

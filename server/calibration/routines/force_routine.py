@@ -19,7 +19,7 @@ from server.calibration.force.verdict import judge_force
 from server.calibration.routines.errors import NoSpringError, SlideHitError
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.control.errors import ControlError
 from server.schema.calibrations import ForceValues
 from server.schema.routines import ForceRoutineRequest

@@ -15,7 +15,7 @@ from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.errors import LabelLostError
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.schema.calibrations import PlayValues
 from server.schema.routines import PlayRoutineRequest
 from server.schema.vehicles import Vehicle

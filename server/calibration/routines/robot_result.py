@@ -14,7 +14,7 @@ from server.calibration.robot.unknowns import NAMES, WORDS
 from server.calibration.robot.verdict import judge
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.comparing import records_of
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.calibration.versions.values import rotation_vector
 from server.schema.calibrations import RobotEvidence, RobotValues
 from twin.as_built import PlanarAsBuilt

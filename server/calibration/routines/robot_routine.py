@@ -26,7 +26,7 @@ from server.calibration.routines.robot_memory import KeptLook, RobotMemory
 from server.calibration.routines.robot_result import result_of
 from server.calibration.routines.stand import Stand
 from server.calibration.routines.wiring import check_wiring
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.control.errors import ActuatorOverloadError, MotionOutOfReachError
 from server.schema.routines import RobotRoutineRequest
 from server.schema.vehicles import Vehicle

@@ -7,7 +7,7 @@ from typing import Protocol
 from server.calibration.routines.check_routine import CheckResult
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.schema.routines import RoutineRequest
 from server.schema.vehicles import Vehicle
 

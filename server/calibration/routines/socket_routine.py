@@ -18,7 +18,7 @@ from server.calibration.grade import Grade
 from server.calibration.routines.errors import LabelLostError, LabelMovedError, PlugNotInError
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.control.errors import RobotNotReadyError
 from server.control.plug_guard import HELD
 from server.localisation.frames import Pose, base_from_camera, inverse, label_from_socket

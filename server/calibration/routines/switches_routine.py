@@ -18,7 +18,7 @@ from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.errors import LabelLostError
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.schema.calibrations import SwitchesValues
 from server.schema.routines import SwitchesRoutineRequest
 from server.schema.vehicles import Vehicle

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
@@ -21,6 +20,7 @@ from server.calibration.versions.errors import (
     NothingToRollBackError,
 )
 from server.calibration.versions.evidence import as_kept, camera_evidence_of, robot_evidence_of
+from server.calibration.versions.new_calibration import NewCalibration
 from server.calibration.versions.values import ValuesInForce, subject_of
 from server.config.settings import Settings
 from server.control.built_robot import BuiltRobot
@@ -32,7 +32,6 @@ from server.schema.calibrations import (
     CalibrationDetail,
     CalibrationKind,
     CalibrationValues,
-    CameraEvidence,
     CameraValues,
     RobotEvidence,
     RobotValues,
@@ -49,31 +48,6 @@ _VALUES: TypeAdapter[CalibrationValues] = TypeAdapter(CalibrationValues)
 
 Key = tuple[CalibrationKind, str]
 """Kind and subject: of each one version counts."""
-
-
-@dataclass(frozen=True, slots=True)
-class NewCalibration:
-    """A version before it is kept.
-
-    Attributes:
-        values: The numbers.
-        made_by: Who.
-        source: Where the numbers come from, in words.
-        grade: Of its verdict.
-        remarks: Of its verdict.
-        error: What it misses on data held back; None: not measured.
-        error_in_use: What the one in force missed on the same data.
-        evidence: What it rests on.
-    """
-
-    values: CalibrationValues
-    made_by: str
-    source: str
-    grade: Grade = Grade.USABLE
-    remarks: tuple[str, ...] = ()
-    error: float | None = None
-    error_in_use: float | None = None
-    evidence: RobotEvidence | CameraEvidence | None = None
 
 
 class LooksThroughCamera(Protocol):

@@ -13,6 +13,7 @@ from drivers.simulator.plant import Plant
 from server.calibration.drift import service
 from server.calibration.drift.belts import BeltMemory, LookPair, seen_shift
 from server.calibration.drift.memory import DriftMemory
+from server.control.seat import HOLD_S
 from server.jobs.model import JobState, JobType
 from server.schema.calibrations import CalibrationKind
 from server.simulated_calibration import tip_errors_mm
@@ -46,7 +47,10 @@ async def charge_once(scene: Scene) -> None:
 
 async def learnt(scene: Scene, memory: BeltMemory) -> None:
     """As if the jobs of the last weeks had taught that."""
-    drift = scene.services.self_calibration
+    drift, supervisor = scene.services.self_calibration, scene.services.supervisor
+    async with supervisor.control("job", "Parking after the last of them") as lease:
+        await supervisor.move_from_below(lease, supervisor.telemetry.require().commanded.position)
+    await drift.settled()
     await drift._remember(DriftMemory(belts=memory))
 
 
@@ -97,6 +101,7 @@ def test_a_job_teaches_and_a_correction_is_a_version_that_can_be_rolled_back(
         assert np.percentile(after, 95) < 0.7 * np.percentile(before, 95)
 
         await client.post("calibrations/roll-back", json={"kind": "robot"})
+        await scene.later(HOLD_S)
         await charge_once(scene)
         assert services.calibrations.robot_in_force is None, "a person has taken it back"
         assert services.self_calibration.report.belts.jobs <= 1

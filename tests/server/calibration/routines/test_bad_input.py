@@ -8,7 +8,7 @@ import pytest
 from drivers.simulator.truth import mechanism_from_below
 from drivers.simulator.world import SimulatedWorld
 from server.calibration.routines import robot_routine, stand
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.calibration.versions.values import rotation_vector
 from server.schema.calibrations import CalibrationKind, RobotValues
 from server.schema.routines import RobotRoutineRequest, Routine

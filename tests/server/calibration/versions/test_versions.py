@@ -9,7 +9,7 @@ import pytest
 
 from server.calibration.grade import Grade
 from server.calibration.versions.errors import CalibrationWorseError, NothingToRollBackError
-from server.calibration.versions.service import NewCalibration
+from server.calibration.versions.new_calibration import NewCalibration
 from server.calibration.versions.values import rotation_matrix, rotation_vector
 from server.control.errors import CalibrationHeldError, ControlBusyError
 from server.control.model import PlugState
