@@ -53,6 +53,9 @@ class Report:
 
 def main() -> None:
     """Measure and print."""
+    if len(sys.argv) == 1:
+        print("Left out: it needs Lighthouse, named as its first argument; see this file's head.")
+        return
     lighthouse, *others = sys.argv[1:]
     with serving() as server:
         for name, path in PAGES.items():
