@@ -60,12 +60,15 @@ def respond(error: PlugPilotError, headers: dict[str, str] | None = None) -> Res
     )
 
 
-def _on_own_error(_request: Request, error: Exception) -> Response:
+# These are coroutines, although they wait for nothing: anything else is called in a thread.
+
+
+async def _on_own_error(_request: Request, error: Exception) -> Response:
     assert isinstance(error, PlugPilotError)  # noqa: S101 - registered for this type only
     return respond(error)
 
 
-def _on_invalid_request(_request: Request, error: Exception) -> Response:
+async def _on_invalid_request(_request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)  # noqa: S101 - registered for this type only
     faults = error.errors()
     if any(fault["type"] == "json_invalid" for fault in faults):
@@ -82,7 +85,7 @@ def _on_invalid_request(_request: Request, error: Exception) -> Response:
     return respond(InvalidRequestError(f"{sentence}.", fields=fields))
 
 
-def _on_http_error(request: Request, error: Exception) -> Response:
+async def _on_http_error(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)  # noqa: S101 - registered for this type only
     where = f"{request.method} {request.url.path}"
     headers = dict(error.headers or {})

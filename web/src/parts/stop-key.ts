@@ -13,6 +13,8 @@ const KEYS = [" ", "Escape"];
  * Call it each time that a document was loaded into the frame.
  */
 export function hearStopKeys(frame: HTMLIFrameElement): void {
+  // A frame that could not be loaded shows a page of the browser's own, which is not to be touched.
+  if (frame.contentDocument === null) return;
   frame.contentWindow?.addEventListener(
     "keydown",
     (event) => {
