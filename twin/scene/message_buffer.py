@@ -21,6 +21,8 @@ import viser
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
+from websockets.exceptions import ConnectionClosedError
+from websockets.protocol import State
 
 from twin.scene.frame_packer import FramePacker
 
@@ -134,9 +136,20 @@ async def send_frames(
     windows = buffer.window_generator(client_id, backlog_done_message=backlog_done_message)
     try:
         async for window in windows:
-            await websocket.send(buffer.packer.frame(window))
+            await _send(websocket, buffer.packer.frame(window))
     finally:
         await windows.aclose()  # lets go of the numbers that this browser still needed
+
+
+async def _send(websocket: ServerConnection, frame: bytes) -> None:
+    try:
+        await websocket.send(frame)
+    except AttributeError:
+        # The library aborts a transport of a browser that has vanished, and asyncio has let go of
+        # its loop by then.
+        if websocket.state is not State.CLOSED:
+            raise
+        raise ConnectionClosedError(None, None) from None
 
 
 def send_what_is_kept(server: viser.ViserServer) -> None:

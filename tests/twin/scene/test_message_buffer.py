@@ -6,17 +6,19 @@ import asyncio
 import hashlib
 import inspect
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
 import viser
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 from viser.infra._messages import Message
+from websockets.exceptions import ConnectionClosedError
+from websockets.protocol import State
 
 from tests.support.eventually import eventually
 from tests.support.twin_client import TwinClient
-from twin.scene import viser_server
+from twin.scene import message_buffer, viser_server
 from twin.scene.message_buffer import ReplayBuffer, library_producer
 
 
@@ -186,3 +188,23 @@ async def test_servers_that_were_not_changed_send_as_before(server: viser.ViserS
             await client.until_position("/node", 3.0)
     finally:
         other.stop()
+
+
+class _Vanished:
+    """A connection that the library closes after asyncio has let go of its transport."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+
+    async def send(self, _frame: bytes) -> None:
+        raise AttributeError("'NoneType' object has no attribute 'call_soon'")
+
+
+@pytest.mark.parametrize(
+    ("state", "error"), [(State.CLOSED, ConnectionClosedError), (State.OPEN, AttributeError)]
+)
+async def test_a_browser_that_vanished_meanwhile_is_an_ended_connection(
+    state: State, error: type[Exception]
+) -> None:
+    with pytest.raises(error):
+        await message_buffer._send(cast(Any, _Vanished(state)), b"")
