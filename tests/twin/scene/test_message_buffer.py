@@ -207,4 +207,4 @@ async def test_a_browser_that_vanished_meanwhile_is_an_ended_connection(
     state: State, error: type[Exception]
 ) -> None:
     with pytest.raises(error):
-        await message_buffer._send(cast(Any, _Vanished(state)), b"")
+        await message_buffer._send(cast("Any", _Vanished(state)), b"")
