@@ -150,14 +150,15 @@ $(BIN)/python:
 
 $(VENV)/.requirements: requirements.lock | $(BIN)/python
 	@echo "Installing the requirements (once, about a minute) ..."
-	@$(PIP) --require-hashes --requirement requirements.lock
+	@$(PIP) --no-compile --require-hashes --requirement requirements.lock
 	@touch $@
 
+# Byte code of the requirements is made by all processors, while the pages are being built.
 $(VENV)/.project: $(VENV)/.requirements pyproject.toml $(WEB_SOURCES)
 	@.ci/ensure-node $(BIN)
 	@echo "Building the web pages and installing PlugPilot ..."
-	@$(PIP) --no-deps --no-build-isolation --editable .
-	@$(BIN)/python -m compileall -q server twin drivers
+	@$(BIN)/python -m compileall -qq -j 0 $(VENV)/lib server twin drivers & \
+		$(PIP) --no-deps --no-build-isolation --editable .; built=$$?; wait; exit $$built
 	@touch $@
 
 $(VENV)/.development: $(VENV)/.requirements requirements-dev.lock
