@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from twin.as_built.correction import JointCorrection
 from twin.joints import JointAcceleration, JointPosition, JointVelocity
-from twin.motion.plan import JointState, MotionPlan, MotionSamples
+from twin.motion.plan import JointState, MotionPlan, MotionSamples, ReadByState
 
 Array = NDArray[np.float64]
 
@@ -18,7 +18,7 @@ _DIFFERENCE_S = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
-class CorrectedPlan:
+class CorrectedPlan(ReadByState):
     """What the board must do while the drawn robot would follow a plan. Itself a MotionPlan.
 
     Attributes:
@@ -47,18 +47,6 @@ class CorrectedPlan:
     def state_at(self, t_s: float) -> JointState:
         """Positions, velocities and accelerations of the board's joints."""
         return self._mapped(self.plan.state_at(t_s))
-
-    def position_at(self, t_s: float) -> JointPosition:
-        """Positions of the board's joints [mm]."""
-        return self.state_at(t_s).position
-
-    def velocity_at(self, t_s: float) -> JointVelocity:
-        """Velocities of the board's joints [mm/s]."""
-        return self.state_at(t_s).velocity
-
-    def acceleration_at(self, t_s: float) -> JointAcceleration:
-        """Accelerations of the board's joints [mm/s^2]."""
-        return self.state_at(t_s).acceleration
 
     def sample(self, times_s: Array) -> MotionSamples:
         """The board's joints at many times, shape (N,) [s]."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from twin.joints import JointAcceleration, JointPosition, JointVelocity
+from twin.joints import JointPosition
 from twin.motion.limits import MotionLimits
-from twin.motion.plan import Array, JointState, MotionPlan, MotionSamples
+from twin.motion.plan import Array, JointState, MotionPlan, MotionSamples, ReadByState
 from twin.motion.point_to_point import JointPlan, plan_joint_move, require_finite
 from twin.motion.trajectory import solve_freely
 
@@ -18,7 +18,7 @@ _STEP_MM = 0.005
 
 
 @dataclass(frozen=True, slots=True)
-class TurningPlan:
+class TurningPlan(ReadByState):
     """One plan until ``turn_s``, then another, which begins in the state that the first has then.
 
     Attributes:
@@ -51,18 +51,6 @@ class TurningPlan:
         if t_s < self.turn_s:
             return self.first.state_at(t_s)
         return self.second.state_at(t_s - self.turn_s)
-
-    def position_at(self, t_s: float) -> JointPosition:
-        """Joint positions t_s seconds after the start [mm]."""
-        return self.state_at(t_s).position
-
-    def velocity_at(self, t_s: float) -> JointVelocity:
-        """Joint velocities t_s seconds after the start [mm/s]."""
-        return self.state_at(t_s).velocity
-
-    def acceleration_at(self, t_s: float) -> JointAcceleration:
-        """Joint accelerations t_s seconds after the start [mm/s^2]."""
-        return self.state_at(t_s).acceleration
 
     def sample(self, times_s: Array) -> MotionSamples:
         """The plan at many times, shape (N,) [s]."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Protocol, Self
 
@@ -79,3 +80,25 @@ class MotionPlan(Protocol):
     def sample(self, times_s: Array) -> MotionSamples:
         """The plan at many times, shape (N,) [s]."""
         ...
+
+
+class ReadByState(ABC):
+    """Gives a plan its positions, velocities and accelerations from its states."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def state_at(self, t_s: float) -> JointState:
+        """Positions, velocities and accelerations t_s seconds after the start."""
+
+    def position_at(self, t_s: float) -> JointPosition:
+        """Joint positions t_s seconds after the start [mm]."""
+        return self.state_at(t_s).position
+
+    def velocity_at(self, t_s: float) -> JointVelocity:
+        """Joint velocities t_s seconds after the start [mm/s]."""
+        return self.state_at(t_s).velocity
+
+    def acceleration_at(self, t_s: float) -> JointAcceleration:
+        """Joint accelerations t_s seconds after the start [mm/s^2]."""
+        return self.state_at(t_s).acceleration

@@ -10,12 +10,12 @@ import numpy as np
 from twin.joints import JointAcceleration, JointPosition, JointVelocity
 from twin.motion.errors import InvalidMotionError
 from twin.motion.limits import MotionLimits
-from twin.motion.plan import Array, JointState, MotionSamples
+from twin.motion.plan import Array, JointState, MotionSamples, ReadByState
 from twin.motion.trajectory import Trajectory, solve_position
 
 
 @dataclass(frozen=True, slots=True)
-class JointPlan:
+class JointPlan(ReadByState):
     """A plan whose joints follow piecewise cubic profiles."""
 
     duration_s: float
@@ -33,18 +33,6 @@ class JointPlan:
         return JointState(
             JointPosition(*position), JointVelocity(*velocity), JointAcceleration(*acceleration)
         )
-
-    def position_at(self, t_s: float) -> JointPosition:
-        """Joint positions t_s seconds after the start [mm]."""
-        return self.state_at(t_s).position
-
-    def velocity_at(self, t_s: float) -> JointVelocity:
-        """Joint velocities t_s seconds after the start [mm/s]."""
-        return self.state_at(t_s).velocity
-
-    def acceleration_at(self, t_s: float) -> JointAcceleration:
-        """Joint accelerations t_s seconds after the start [mm/s^2]."""
-        return self.state_at(t_s).acceleration
 
     def sample(self, times_s: Array) -> MotionSamples:
         """The plan at many times, shape (N,) [s]."""

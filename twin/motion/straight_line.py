@@ -13,13 +13,13 @@ from twin.kinematics import gamma
 from twin.motion.errors import InvalidMotionError
 from twin.motion.limits import MotionLimits
 from twin.motion.path_limits import LARGEST, path_limits
-from twin.motion.plan import Array, JointState, MotionSamples
+from twin.motion.plan import Array, JointState, MotionSamples, ReadByState
 from twin.motion.tip_line import TipLine
 from twin.motion.trajectory import Trajectory, solve_position
 
 
 @dataclass(frozen=True, slots=True)
-class StraightLinePlan:
+class StraightLinePlan(ReadByState):
     """A plan whose tip follows a line; the trajectory is the distance along it."""
 
     duration_s: float
@@ -46,18 +46,6 @@ class StraightLinePlan:
                 slope[2] * gain + curve[2] * squared,
             ),
         )
-
-    def position_at(self, t_s: float) -> JointPosition:
-        """Joint positions t_s seconds after the start [mm]."""
-        return self.state_at(t_s).position
-
-    def velocity_at(self, t_s: float) -> JointVelocity:
-        """Joint velocities t_s seconds after the start [mm/s]."""
-        return self.state_at(t_s).velocity
-
-    def acceleration_at(self, t_s: float) -> JointAcceleration:
-        """Joint accelerations t_s seconds after the start [mm/s^2]."""
-        return self.state_at(t_s).acceleration
 
     def sample(self, times_s: Array) -> MotionSamples:
         """The plan at many times, shape (N,) [s]."""
