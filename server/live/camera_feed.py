@@ -5,11 +5,11 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraDriver, CameraError
+from server.jpeg import as_jpeg
 
 STREAM_WIDTH_PX = 820
 QUALITY = 75
@@ -100,12 +100,8 @@ class CameraFeed:
 
 
 def _small_jpeg(image: NDArray[np.uint8]) -> bytes:
-    height, width = image.shape
-    scale = min(1.0, STREAM_WIDTH_PX / width)
-    size = (round(width * scale), round(height * scale))
-    return _jpeg(np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), np.uint8))
+    return as_jpeg(image, quality=QUALITY, most_width_px=STREAM_WIDTH_PX)
 
 
 def _jpeg(image: NDArray[np.uint8]) -> bytes:
-    _, encoded = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
-    return encoded.tobytes()
+    return as_jpeg(image, quality=QUALITY)

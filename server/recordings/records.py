@@ -6,13 +6,13 @@ import base64
 import json
 from datetime import datetime
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from drivers.robot import RobotState
 from drivers.station import StationSnapshot
 from server.config.settings import Settings
+from server.jpeg import as_jpeg
 from server.localisation.socket_pose import SocketPose
 from server.recordings.topics import (
     EventRecord,
@@ -156,12 +156,11 @@ def station_record(snapshot: StationSnapshot | None, *, online: bool) -> Station
 
 def picture_record(image: NDArray[np.uint8], exposed_at_ns: int) -> PictureRecord:
     """A picture as JPEG at full size."""
-    _, encoded = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
     sec, nsec = divmod(exposed_at_ns, 1_000_000_000)
     return PictureRecord(
         timestamp=StampRecord(sec=sec, nsec=nsec),
         frame_id=FRAME_ID,
-        data=base64.b64encode(encoded.tobytes()).decode(),
+        data=base64.b64encode(as_jpeg(image, quality=JPEG_QUALITY)).decode(),
     )
 
 

@@ -7,11 +7,11 @@ from collections import deque
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraDriver, CameraModel, Frame
+from server.jpeg import as_jpeg
 from server.schema.inspection import CameraInspection
 from server.schema.problem import problem_from
 from server.schema.vehicles import Vehicle
@@ -162,7 +162,9 @@ class CameraInspector:
         )
 
     def _work(self, image: Image, vehicles: Sequence[Vehicle]) -> tuple[Look, bytes]:
-        return look_at(self._locator, image, vehicles), _jpeg(image)
+        return look_at(self._locator, image, vehicles), as_jpeg(
+            image, quality=QUALITY, most_width_px=WIDTH_PX
+        )
 
     def _keep(self, jpeg: bytes) -> None:
         self._pictures[self._sequence] = jpeg
@@ -175,12 +177,3 @@ class CameraInspector:
         if span_s <= 0:
             return None
         return round((last.sequence - first.sequence) / span_s, 2)
-
-
-def _jpeg(image: Image) -> bytes:
-    height, width = image.shape
-    scale = min(1.0, WIDTH_PX / width)
-    size = (round(width * scale), round(height * scale))
-    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA) if scale < 1 else image
-    _, encoded = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
-    return encoded.tobytes()

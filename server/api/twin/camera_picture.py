@@ -7,6 +7,7 @@ import asyncio
 import cv2
 import numpy as np
 
+from server.jpeg import as_jpeg
 from server.live.camera_feed import CameraFeed
 
 WIDTH_PX = 320
@@ -28,9 +29,4 @@ def _shrunk(jpeg: bytes) -> bytes:
     if image is None:
         msg = "the camera feed delivered no JPEG"
         raise ValueError(msg)
-    height, width = image.shape
-    scale = min(1.0, WIDTH_PX / width)
-    size = (round(width * scale), round(height * scale))
-    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
-    _, encoded = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
-    return encoded.tobytes()
+    return as_jpeg(np.asarray(image, np.uint8), quality=QUALITY, most_width_px=WIDTH_PX)

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import asyncio
 
-import cv2
-import numpy as np
-from numpy.typing import NDArray
-
 from server.calibration.routines.errors import NoRoutineError
 from server.schema.board import BoardLook
 
-WIDTH_PX, QUALITY = 820, 75
 KEPT = 4
 """Pictures kept for those who have just read that there is one."""
 
@@ -67,13 +62,3 @@ class BoardFeed:
     def picture(self, sequence: int) -> bytes | None:
         """The JPEG of a number; None if it was forgotten or never was."""
         return self._pictures.get(sequence)
-
-
-def jpeg_of(image: NDArray[np.uint8]) -> bytes:
-    """A picture as it is sent, no wider than a page shows it."""
-    height, width = image.shape
-    scale = min(1.0, WIDTH_PX / width)
-    size = (round(width * scale), round(height * scale))
-    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA) if scale < 1 else image
-    _, encoded = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
-    return encoded.tobytes()

@@ -19,11 +19,11 @@ from server.calibration.camera.errors import NoBoardError, WrongBoardError
 from server.calibration.camera.in_use import camera_error_px
 from server.calibration.camera.solve import CameraSolution, solve_camera
 from server.calibration.camera.verdict import judge
-from server.calibration.routines.board_feed import jpeg_of
 from server.calibration.routines.errors import BoardBlurredError, TooFewViewsError
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.new_calibration import NewCalibration
+from server.jpeg import as_jpeg
 from server.labels.board_layout import BoardLayout
 from server.schema.board import BoardLook, BoardNotice
 from server.schema.calibrations import CameraEvidence, CameraValues, CameraViewRecord
@@ -32,6 +32,7 @@ from server.schema.routines import CameraRoutineRequest
 PERIOD_S = 0.15
 """From one look to the next at least; a hand that holds still does so for longer."""
 FEWEST_VIEWS = 10
+WIDTH_PX, QUALITY = 820, 75
 UNSEEN_S, OTHER_S, BLURRED_S, IDLE_S = 90.0, 6.0, 25.0, 180.0
 """So long it waits for the board, for the right one, for a sharp picture, for a new view."""
 
@@ -162,7 +163,9 @@ class CameraRoutine:
 
 
 def _work(finder: BoardFinder, frame: Frame, name: str) -> tuple[BoardSight, bytes]:
-    return finder.find(frame.image, name), jpeg_of(frame.image)
+    return finder.find(frame.image, name), as_jpeg(
+        frame.image, quality=QUALITY, most_width_px=WIDTH_PX
+    )
 
 
 def _look(
