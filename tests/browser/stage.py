@@ -102,7 +102,6 @@ class Stage:
         self.app.put("/api/v1/push", status_code=204)(self._subscribe)
         self.app.delete("/api/v1/push", status_code=204)(self._unsubscribe)
         self.app.get("/api/v1/access/session")(self._session)
-        self.app.get("/api/v1/access/{entries}")(self._nothing)
         self.app.get("/api/v1/vehicles")(self._vehicles)
         self.app.get("/api/v1/jobs")(self._jobs)
         self.app.get("/api/v1/jobs/{job_id}/playback")(self._playback)
@@ -153,10 +152,6 @@ class Stage:
 
     async def _session(self) -> AccessSession:
         return self.session
-
-    async def _nothing(self, entries: str) -> dict[str, object]:
-        del entries
-        return {"items": [], "next_cursor": None}
 
     async def _push(self) -> PushState:
         return PushState(public_key=PUSH_KEY, subscribed=self.subscription is not None)

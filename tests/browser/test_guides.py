@@ -7,53 +7,14 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from server.control.model import PlugState
-from server.jobs.model import JobPhase, PersonChoice
-from server.schema.jobs import NeedsPerson
-from server.schema.live import Live
 from tests.browser.axe import violations
+from tests.browser.guide_scenes import SCENES as STATES
 from tests.browser.languages import LOCALES, overflows
-from tests.browser.scenes import SCENES, job, live, robot
+from tests.browser.scenes import SCENES
 from tests.browser.stage import Stage
 
 NARROW = {"width": 320, "height": 640}
 SCREENS = [{"width": 800, "height": 480}, {"width": 1024, "height": 600}]
-CODES = (
-    "label_not_found",
-    "pose_uncertain",
-    "place_implausible",
-    "socket_unreachable",
-    "actuator_overload",
-    "insertion_jammed",
-    "plug_missed",
-    "car_gone",
-    "connector_locked",
-    "under_load",
-    "station_unsafe",
-    "no_contact",
-    "robot_offline",
-    "heartbeat_lost",
-    "following_error",
-    "watchdog",
-    "wrong_firmware",
-    "camera_down",
-    "long_outage",
-    "of_a_newer_server",
-)
-"""One for each guide."""
-
-
-def _asking(code: str) -> Live:
-    choices = [PersonChoice.RESUME, PersonChoice.CANCEL]
-    needs = NeedsPerson(code=code, sentence="Somebody has to look.", choices=choices)
-    waiting = job(JobPhase.INSERTING).model_copy(update={"needs_person": needs})
-    return live(robot(plug=PlugState.FREE), waiting)
-
-
-STATES = {name: SCENES[name] for name in ("stopped", "unknown", "emergency")} | {
-    code: _asking(code) for code in CODES
-}
-"""Those without a job first: the live connection never takes a job away again."""
 ABOUT = {"unknown": "plug_unknown", "emergency": "emergency_stop"}
 
 
