@@ -90,7 +90,7 @@ PAUSED = {
     ),
     PauseReason.CAMERA_DOWN: Words(
         PauseReason.CAMERA_DOWN,
-        "The camera does not answer",
+        "No camera picture",
         "Without pictures nobody can say how far to go.",
         "Check the cable of the camera. Park by eye if you must.",
     ),

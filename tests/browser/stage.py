@@ -20,7 +20,7 @@ from server.access.rights import ROLE_RIGHTS
 from server.api.pages import pages_router
 from server.jobs.model import JobPhase, JobState
 from server.schema.access import AccessSession, PersonSummary
-from server.schema.jobs import JobPage, Playback, PlaybackMark, RecordingInfo
+from server.schema.jobs import JobPage, JobResult, Playback, PlaybackMark, RecordingInfo
 from server.schema.live import DeltaMessage, Live, LiveChanges, SnapshotMessage
 from server.schema.push import PushState, PushSubscription
 from server.schema.robot import Reach, WayLeft
@@ -54,9 +54,14 @@ STRANGER = AccessSession(
     paired=False, person=None, device_id=None, rights=[], passkeys=False, screen=False
 )
 
-PAST_JOB = job(JobPhase.PARKING, state=JobState.SUCCEEDED).model_copy(
-    update={"recording": RecordingInfo(size_bytes=1_500_000)}
-)
+PAST_JOB = job(
+    JobPhase.PARKING,
+    state=JobState.SUCCEEDED,
+    result=JobResult(energy_wh=21_480, cost=6.44, currency="EUR"),
+).model_copy(update={"recording": RecordingInfo(size_bytes=1_500_000)})
+FAILED_JOB = job(
+    JobPhase.LOCATING, state=JobState.FAILED, seconds=90_000, error=LABEL_NOT_FOUND
+).model_copy(update={"id": "01956b1e-8c00-7000-8000-000000000003"})
 PLAYBACK = Playback(
     duration_s=18.7,
     marks=[
@@ -166,7 +171,7 @@ class Stage:
         return VEHICLES
 
     async def _jobs(self) -> JobPage:
-        return JobPage(items=[PAST_JOB], next_cursor=None)
+        return JobPage(items=[PAST_JOB, FAILED_JOB], next_cursor=None)
 
     async def _playback(self, job_id: str) -> Playback:
         assert job_id == PAST_JOB.id

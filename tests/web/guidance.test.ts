@@ -99,6 +99,13 @@ describe("every state", () => {
     ]);
   });
 
+  test("forbids to drive in where the robot is in the way", () => {
+    const paused = guidance({ state: "paused", reason: "robot_not_parked", steps: [] });
+    expect([iconOf(paused), toneOf(paused)]).toEqual(["closed", "ask"]);
+    const blind = guidance({ state: "paused", reason: "camera_down", steps: [] });
+    expect([iconOf(blind), toneOf(blind)]).toEqual(["look", "calm"]);
+  });
+
   test("gives a number only to what can be driven", () => {
     expect(bigStep(guidance())?.shown_cm).toBe(30);
     expect(bigStep(guidance({ state: "thin" }))).toBeNull();

@@ -2,10 +2,13 @@
 import { signal } from "@preact/signals";
 import type { FunctionComponent } from "preact";
 import { useEffect } from "preact/hooks";
+import { Refusal } from "@/api/client";
+import { late } from "@/api/late";
 import { speaking } from "@/language/catalogue";
 import { Brand } from "@/parts/header";
 import { Modal } from "@/parts/modal";
 import { Picture } from "@/parts/picture";
+import { trouble } from "@/robot/actions";
 import { words } from "@/words";
 import { Pairing } from "./pairing";
 import { menuOpen, session, unanswered, useInvitation, waitingInvitation } from "./session";
@@ -57,13 +60,19 @@ function Away() {
   );
 }
 
+async function load(): Promise<void> {
+  try {
+    Menu.value = (await late(import("./menu"))).Menu;
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+    menuOpen.value = false;
+    trouble.value = error.trouble;
+  }
+}
+
 /** Loaded when it is opened for the first time: the home page stays small. */
 function LoadedMenu() {
-  useEffect(() => {
-    void import("./menu").then((loaded) => {
-      Menu.value = loaded.Menu;
-    });
-  }, []);
+  useEffect(() => void load(), []);
   const Loaded = Menu.value;
   const close = (): void => {
     menuOpen.value = false;

@@ -1,9 +1,13 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import { late } from "@/api/late";
 import { formatDate } from "@/format";
+import type { TrailWords } from "@/language/types";
 import { listTrail, TRAIL_EXPORT } from "./calls";
 import type { TrailEntry } from "./calls";
 import type { Run } from "./menu";
+import { callerOf, titleOf } from "./trail-entry";
+import { trailWords } from "./trail-words";
 import { say } from "./words";
 
 /** Who did what, from where. */
@@ -11,13 +15,16 @@ export function Trail({ run }: { run: Run }) {
   const security = useSignal(true);
   const entries = useSignal<readonly TrailEntry[] | null>(null);
   const next = useSignal<string | null>(null);
+  const spoken = useSignal<TrailWords | null>(null);
   const load = async (cursor: string | null): Promise<void> => {
-    const page = await listTrail(security.value, cursor);
+    const [page, loaded] = await Promise.all([listTrail(security.value, cursor), late(trailWords())]);
+    spoken.value = loaded;
     entries.value = [...(cursor === null ? [] : (entries.value ?? [])), ...page.items];
     next.value = page.next_cursor;
   };
   useEffect(() => run(() => load(null)), [security.value]);
-  if (entries.value === null) return <p class="soft">{say.loading}</p>;
+  const words = spoken.value;
+  if (entries.value === null || words === null) return <p class="soft">{say.loading}</p>;
   return (
     <>
       <div class="switch" role="group" aria-label={say.tabs.trail}>
@@ -40,11 +47,10 @@ export function Trail({ run }: { run: Run }) {
         {entries.value.map((entry) => (
           <li key={entry.sequence} data-event={entry.event}>
             <p>
-              {say.events[entry.event] ?? entry.event}
-              {factsOf(entry)}
+              {titleOf(entry, words)}
             </p>
             <p class="soft">
-              {formatDate(entry.at)}, {entry.actor}
+              {formatDate(entry.at)}, {callerOf(entry, words)}
               {entry.address !== "" && `, ${entry.address}`}
               {entry.times > 1 && `, ${say.trail.times(entry.times)}`}
             </p>
@@ -63,12 +69,4 @@ export function Trail({ run }: { run: Run }) {
       </div>
     </>
   );
-}
-
-/** The facts of an entry that a person wants to see. */
-function factsOf({ detail }: TrailEntry): string {
-  const shown = ["operation", "name", "role", "device", "code"]
-    .map((name) => detail[name])
-    .filter((fact) => typeof fact === "string");
-  return shown.length === 0 ? "" : `: ${shown.join(", ")}`;
 }

@@ -32,6 +32,8 @@ function Shape({ icon }: { icon: Icon }) {
       return <path d="M24 3 35 15h-7v18h7L24 45 13 33h7V15h-7z" />;
     case "alert":
       return <path d="M24 4 46 43H2zm-2.5 14v12h5V18zm0 15v5h5v-5z" />;
+    case "closed":
+      return <path d="M24 3a21 21 0 1 0 0 42 21 21 0 0 0 0-42zM10 20h28v8H10z" />;
     default:
       return <path d="M24 10C12 10 4.5 19.5 2 24c2.5 4.5 10 14 22 14s19.5-9.5 22-14c-2.5-4.5-10-14-22-14zm0 5a9 9 0 1 1 0 18 9 9 0 0 1 0-18zm0 5a4 4 0 1 0 0 8 4 4 0 0 0 0-8z" />;
   }

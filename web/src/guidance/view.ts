@@ -2,7 +2,15 @@
 import type { Guidance, GuidanceStep, GuidedCar } from "@/api/wire";
 import type { Tone } from "@/robot/describe";
 
-export type Icon = GuidanceStep["direction"] | "stop" | "good" | "thin" | "askew" | "look" | "alert";
+export type Icon =
+  | GuidanceStep["direction"]
+  | "stop"
+  | "good"
+  | "thin"
+  | "askew"
+  | "look"
+  | "alert"
+  | "closed";
 
 const TONES: Record<Guidance["state"], Tone> = {
   paused: "calm",
@@ -16,9 +24,17 @@ const TONES: Record<Guidance["state"], Tone> = {
   skewed: "problem",
 };
 
-export const toneOf = ({ state }: Guidance): Tone => TONES[state];
+/** Without guidance a car may come in by eye; for these reasons it must not. */
+const CLOSED: readonly Guidance["reason"][] = ["robot_busy", "robot_not_parked", "plug_held"];
 
-export function iconOf({ state, steps }: Guidance): Icon {
+const isClosed = ({ state, reason }: Guidance): boolean =>
+  state === "paused" && CLOSED.includes(reason);
+
+export const toneOf = (guidance: Guidance): Tone =>
+  isClosed(guidance) ? "ask" : TONES[guidance.state];
+
+export function iconOf(guidance: Guidance): Icon {
+  const { state, steps } = guidance;
   switch (state) {
     case "move":
       return steps[0]?.direction ?? "look";
@@ -34,6 +50,7 @@ export function iconOf({ state, steps }: Guidance): Icon {
     case "unreadable":
       return "alert";
     case "paused":
+      return isClosed(guidance) ? "closed" : "look";
     case "searching":
       return "look";
   }

@@ -1,4 +1,5 @@
 /** Speaking: when the page opens, and when somebody chooses another language. */
+import { isUnloadable } from "@/api/late";
 import { speak } from "./catalogue";
 import { keep, preferred } from "./language";
 import type { Language } from "./language";
@@ -37,6 +38,3 @@ async function spoke(next: Language): Promise<boolean> {
   });
   return true;
 }
-
-/** How browsers say that a module could not be fetched. */
-const isUnloadable = (error: unknown): boolean => error instanceof TypeError;

@@ -5,6 +5,7 @@ import type { control } from "./en/control";
 import type { guidance } from "./en/guidance";
 import type { guides } from "./en/guides";
 import type { robot } from "./en/robot";
+import type { trail } from "./en/trail";
 
 export type RobotWords = typeof robot;
 export type CardWords = typeof cards;
@@ -13,3 +14,4 @@ export type HomeWords = RobotWords & CardWords & { readonly control: ControlWord
 export type AccessWords = typeof access;
 export type GuidanceWords = typeof guidance;
 export type GuideWords = typeof guides;
+export type TrailWords = typeof trail;

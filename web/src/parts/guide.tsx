@@ -1,6 +1,8 @@
 import { signal } from "@preact/signals";
 import type { FunctionComponent } from "preact";
 import { useEffect } from "preact/hooks";
+import { Refusal } from "@/api/client";
+import { late } from "@/api/late";
 import { trouble } from "@/robot/actions";
 import { description } from "@/robot/view";
 import { words } from "@/words";
@@ -13,12 +15,11 @@ const Loaded = signal<FunctionComponent | null>(null);
 /** Loads the steps when they are first asked for: the home page stays small. */
 async function openGuide(): Promise<void> {
   try {
-    Loaded.value ??= await (await import("@/guides/dialog")).loadGuide();
+    Loaded.value ??= await late(import("@/guides/dialog").then(({ loadGuide }) => loadGuide()));
     guideOpen.value = true;
   } catch (error) {
-    // How browsers say that a module could not be fetched.
-    if (!(error instanceof TypeError)) throw error;
-    trouble.value = words.trouble.unreachable;
+    if (!(error instanceof Refusal)) throw error;
+    trouble.value = error.trouble;
   }
 }
 

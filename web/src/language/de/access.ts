@@ -22,24 +22,9 @@ const scopes: Record<KeyScope, string> = {
 
 const plural = pluralIn("de");
 
-const events: Record<string, string> = {
-  "invitation.created": "Einladung erstellt",
-  "invitation.withdrawn": "Einladung zurückgezogen",
-  "pairing.done": "Neues Gerät gekoppelt",
-  "pairing.refused": "Einladung abgelehnt",
-  "passkey.added": "Passkey hinzugefügt",
-  "passkey.removed": "Passkey entfernt",
-  "passkey.refused": "Passkey abgelehnt",
-  "login.done": "Mit Passkey angemeldet",
-  refused: "Abgelehnt",
-  access: "Zugang geändert",
-  operation: "Ausgeführt",
-};
-
 export const access: AccessWords = {
   roles,
   scopes,
-  events,
   door: {
     opening: "Die Seite des Roboters wird geöffnet …",
     title: "Dieses Gerät ist noch nicht gekoppelt",

@@ -22,25 +22,9 @@ const scopes: Record<KeyScope, string> = {
 
 const plural = pluralIn("en");
 
-/** Some events of the trail deserve plainer words than their names. */
-const events: Record<string, string> = {
-  "invitation.created": "Invitation made",
-  "invitation.withdrawn": "Invitation withdrawn",
-  "pairing.done": "New device paired",
-  "pairing.refused": "Invitation refused",
-  "passkey.added": "Passkey added",
-  "passkey.removed": "Passkey removed",
-  "passkey.refused": "Passkey refused",
-  "login.done": "Signed in with a passkey",
-  refused: "Refused",
-  access: "Access changed",
-  operation: "Done",
-};
-
 export const access = {
   roles,
   scopes,
-  events,
   door: {
     opening: "Opening the robot’s page …",
     title: "This device is not paired yet",

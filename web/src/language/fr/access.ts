@@ -25,24 +25,9 @@ const scopes: Record<KeyScope, string> = {
 
 const plural = pluralIn("fr");
 
-const events: Record<string, string> = {
-  "invitation.created": "Invitation créée",
-  "invitation.withdrawn": "Invitation retirée",
-  "pairing.done": "Nouvel appareil associé",
-  "pairing.refused": "Invitation refusée",
-  "passkey.added": "Clé d’accès ajoutée",
-  "passkey.removed": "Clé d’accès supprimée",
-  "passkey.refused": "Clé d’accès refusée",
-  "login.done": "Connexion par clé d’accès",
-  refused: "Refusé",
-  access: "Accès modifié",
-  operation: "Fait",
-};
-
 export const access: AccessWords = {
   roles,
   scopes,
-  events,
   door: {
     opening: "Ouverture de la page du robot…",
     title: "Cet appareil n’est pas encore associé",

@@ -22,24 +22,9 @@ const scopes: Record<KeyScope, string> = {
 
 const plural = pluralIn("it");
 
-const events: Record<string, string> = {
-  "invitation.created": "Invito creato",
-  "invitation.withdrawn": "Invito ritirato",
-  "pairing.done": "Nuovo dispositivo abbinato",
-  "pairing.refused": "Invito rifiutato",
-  "passkey.added": "Passkey aggiunta",
-  "passkey.removed": "Passkey rimossa",
-  "passkey.refused": "Passkey rifiutata",
-  "login.done": "Accesso con passkey",
-  refused: "Rifiutato",
-  access: "Accesso modificato",
-  operation: "Eseguito",
-};
-
 export const access: AccessWords = {
   roles,
   scopes,
-  events,
   door: {
     opening: "Apertura della pagina del robot…",
     title: "Questo dispositivo non è ancora abbinato",
