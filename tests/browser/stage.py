@@ -11,12 +11,13 @@ from contextlib import contextmanager, suppress
 from datetime import timedelta
 from pathlib import Path
 
+import segno
 import uvicorn
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
 from fastapi.responses import HTMLResponse, JSONResponse, Response
 
 from server.access import Role
-from server.access.rights import ROLE_RIGHTS
+from server.access.rights import ROLE_RIGHTS, Need
 from server.api.pages import pages_router
 from server.jobs.model import JobPhase, JobState
 from server.schema.access import AccessSession, PersonSummary
@@ -53,6 +54,10 @@ OWNER = AccessSession(
 STRANGER = AccessSession(
     paired=False, person=None, device_id=None, rights=[], passkeys=False, screen=False
 )
+ON_THE_ROBOT = STRANGER.model_copy(update={"rights": [Need.STOP]})
+"""Nobody we know, at the robot's own screen; an owner there is."""
+UNOWNED = ON_THE_ROBOT.model_copy(update={"screen": True})
+"""The same before anybody owns the robot."""
 
 PAST_JOB = job(
     JobPhase.PARKING,
@@ -115,6 +120,7 @@ class Stage:
         self.app.get("/api/v1/camera/inspection/{name}")(self._picture)
         self.app.get("/api/v1/calibrations/routine/board/{name}")(self._board)
         self.app.get("/api/v1/{rest:path}")(self._example)
+        self.app.post("/api/v1/access/owner-invitation")(self._invite)
         self.app.post("/api/v1/{rest:path}")(self._accept)
 
     async def _send_live(self, connection: WebSocket) -> None:
@@ -157,6 +163,13 @@ class Stage:
 
     async def _session(self) -> AccessSession:
         return self.session
+
+    async def _invite(self) -> JSONResponse:
+        address = "http://plugpilot.local:8000/#pair=Zk3vTq9xR2mB7wYc"
+        drawn = segno.make(address, error="m").svg_data_uri(border=4, light="#fff")
+        return JSONResponse(
+            {"address": address, "qr": drawn, "reachable": True, "expires_at": None}
+        )
 
     async def _push(self) -> PushState:
         return PushState(public_key=PUSH_KEY, subscribed=self.subscription is not None)

@@ -7,16 +7,27 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from server.access.rights import Need
 from tests.browser.axe import violations
+from tests.browser.control_scenes import SCENES as CONTROL
 from tests.browser.languages import LOCALES, overflows
 from tests.browser.scenes import SCENES
-from tests.browser.stage import OWNER, STRANGER, Stage
+from tests.browser.stage import ON_THE_ROBOT, OWNER, STRANGER, Stage
 from tests.support.process import ServerProcess, serving
 
 SIZES = {"7 inches": (800, 480), "10 inches": (1024, 600)}
 REST_MS = 60_000
 """web/src/kiosk/resting.ts"""
+STATES = (
+    "ready",
+    "charging_priced",
+    "aligning",
+    "needs_person",
+    "parted",
+    "fault",
+    "unknown",
+    "control-held",
+    "control-asking",
+)
 MIN_TARGET_PX = 44
 MIN_STOP_PX = 96
 
@@ -71,8 +82,8 @@ def test_everything_is_in_sight_without_scrolling(
 ) -> None:
     troubles: dict[str, list[str]] = {}
     for page in _page(browser, size, language):
-        for name in ("ready", "charging_priced", "aligning", "needs_person", "fault", "unknown"):
-            stage.live = SCENES[name]
+        for name in STATES:
+            stage.live = {**SCENES, **CONTROL}[name]
             _open(page, address)
             troubles[name] = overflows(page)
             for target in page.locator("button").all():
@@ -155,7 +166,7 @@ def test_elsewhere_a_stranger_meets_the_door(small: Page, address: str, stage: S
 
 
 def test_a_stop_that_is_not_confirmed_says_so(small: Page, address: str, stage: Stage) -> None:
-    stage.session = STRANGER.model_copy(update={"rights": [Need.STOP]})
+    stage.session = ON_THE_ROBOT
     small.goto(f"{address}/kiosk")
     small.route("**/robot/stop", lambda route: route.abort())
     small.get_by_role("button", name="Stop the robot").tap()

@@ -9,7 +9,7 @@ from playwright.sync_api import Page
 from tests.browser.control_scenes import SCENES as CONTROL
 from tests.browser.scenes import SCENES
 from tests.browser.shots.shot import Shot, click, until_live
-from tests.browser.stage import STRANGER
+from tests.browser.stage import ON_THE_ROBOT, UNOWNED
 
 REST_MS = 61_000
 """A little more than web/src/kiosk/resting.ts waits."""
@@ -37,7 +37,9 @@ def shots() -> Iterator[Shot]:
     """All of them; nothing lies below the edge of this screen."""
     for name, live in {**SCENES, **CONTROL}.items():
         yield Shot("kiosk", name, live, whole=False)
+    ready = SCENES["ready"]
     for name, (scene, opened) in OPENED.items():
         yield Shot("kiosk", name, SCENES[scene], opened, whole=False)
-    yield Shot("kiosk", "unpaired", SCENES["ready"], _unpaired, session=STRANGER, whole=False)
-    yield Shot("kiosk", "rest", SCENES["ready"], _rest, whole=False)
+    yield Shot("kiosk", "unpaired", ready, _unpaired, session=ON_THE_ROBOT, whole=False)
+    yield Shot("kiosk", "unowned", ready, _unpaired, session=UNOWNED, whole=False)
+    yield Shot("kiosk", "rest", ready, _rest, whole=False)

@@ -1,11 +1,13 @@
-import { ControlQuestion } from "@/control/notices";
+import { ControlNotice, ControlQuestion } from "@/control/notices";
 import { ChoiceDialog, QuestionDialog } from "@/parts/dialogs";
 import { GuideDialog } from "@/parts/guide";
 import { LinkState } from "@/parts/header";
 import { Hero } from "@/parts/hero";
 import { LanguagePicker } from "@/parts/language-picker";
+import { Notices } from "@/parts/notices";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
+import { TwinAlarm } from "@/parts/twin-alarm";
 import { Clock } from "./clock";
 import { Rest } from "./rest";
 
@@ -21,6 +23,11 @@ export function Kiosk() {
       <main class="kiosk-page">
         {/* Planning asks for numbers: that needs a keyboard, and is done on a phone. */}
         <Hero without="plan" />
+        <div class="kiosk-notices">
+          <ControlNotice />
+          <TwinAlarm />
+          <Notices />
+        </div>
         <StationCard />
       </main>
       <StopBar />

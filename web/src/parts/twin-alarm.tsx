@@ -7,7 +7,7 @@ import { words } from "@/words";
 /** What was measured, beside what a good robot would measure. */
 function figuresOf({ quantity, measured, expected, unit }: Divergence): string {
   const digits = quantity === "force" ? 0 : quantity === "phase_time" ? 1 : 2;
-  const withUnit = (value: number): string => `${formatNumber(value, digits)} ${unit}`;
+  const withUnit = (value: number): string => `${formatNumber(value, digits)}\u00a0${unit}`;
   return words.twin.figures(withUnit(measured), withUnit(expected));
 }
 
