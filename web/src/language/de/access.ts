@@ -9,7 +9,7 @@ const roles: Record<Role, { name: string; may: string }> = {
   viewer: { name: "Zuschauer", may: "sieht alles und darf den Roboter anhalten" },
   resident: { name: "Familie", may: "lädt das Auto und steckt es aus" },
   technician: { name: "Techniker", may: "lädt, bewegt von Hand, kalibriert und ändert Autos" },
-  owner: { name: "Besitzer", may: "darf all das und entscheidet, wer was darf" },
+  owner: { name: "Besitzer", may: "darf alles und entscheidet, wer was darf" },
 };
 
 const scopes: Record<KeyScope, string> = {

@@ -9,7 +9,7 @@ const roles: Record<Role, { name: string; may: string }> = {
   viewer: { name: "Viewer", may: "sees everything and may stop the robot" },
   resident: { name: "Family", may: "charges and unplugs the car" },
   technician: { name: "Technician", may: "charges, jogs, calibrates and changes cars" },
-  owner: { name: "Owner", may: "does all that, and decides who may do what" },
+  owner: { name: "Owner", may: "does everything, and decides who may do what" },
 };
 
 const scopes: Record<KeyScope, string> = {

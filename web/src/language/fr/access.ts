@@ -12,7 +12,7 @@ const roles: Record<Role, { name: string; may: string }> = {
     name: "Technicien",
     may: "charge, déplace à la main, étalonne et modifie les voitures",
   },
-  owner: { name: "Propriétaire", may: "fait tout cela et décide qui peut faire quoi" },
+  owner: { name: "Propriétaire", may: "fait tout et décide qui peut faire quoi" },
 };
 
 const scopes: Record<KeyScope, string> = {

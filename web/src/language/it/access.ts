@@ -9,7 +9,7 @@ const roles: Record<Role, { name: string; may: string }> = {
   viewer: { name: "Osservatore", may: "vede tutto e può fermare il robot" },
   resident: { name: "Famiglia", may: "ricarica e scollega l’auto" },
   technician: { name: "Tecnico", may: "ricarica, muove a mano, calibra e modifica le auto" },
-  owner: { name: "Proprietario", may: "fa tutto questo e decide chi può fare che cosa" },
+  owner: { name: "Proprietario", may: "fa tutto e decide chi può fare che cosa" },
 };
 
 const scopes: Record<KeyScope, string> = {
