@@ -68,14 +68,11 @@ async def _live(services: Services) -> str:
 
 
 def _link(services: Services) -> dict[str, Any]:
-    supervisor, now_s = services.supervisor, asyncio.get_running_loop().time()
-    state, trouble = supervisor.telemetry.latest, supervisor.link_trouble
+    supervisor = services.supervisor
+    trouble = supervisor.link_trouble
     return {
         "board": supervisor.name,
-        "telemetry_age_s": None if state is None else round(now_s - state.sampled_at_s, 4),
-        "telemetry_delay_s": None
-        if state is None
-        else round(state.received_at_s - state.sampled_at_s, 4),
+        "link": services.technician.link.report().model_dump(mode="json"),
         "trouble": None if trouble is None else str(trouble),
         "camera_online": services.camera.online,
         "station": services.station.name,

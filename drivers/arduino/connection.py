@@ -11,11 +11,12 @@ from drivers.arduino.configuration import configuration_crc, configuration_messa
 from drivers.arduino.errors import LinkLostError
 from drivers.arduino.handshake import Handshake
 from drivers.arduino.link.frames import Frame
+from drivers.arduino.link_gauge import LinkGauge
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
 from drivers.arduino.protocol.messages import Fault, ResetCause, State, TelemetryFlag
 from drivers.arduino.scale import AxisScale
-from drivers.arduino.serial_port import Line, OpenLine
+from drivers.arduino.serial_port import OpenLine
 from drivers.arduino.session import Session
 from drivers.arduino.settings import BoardSettings
 from drivers.arduino.tap import TappedLine
@@ -48,11 +49,16 @@ class Connection:
         limits: How fast they may move.
         on_state: Gets every sample.
         on_lost: Called once when the link has broken.
+
+    Attributes:
+        identity: How the board introduced itself.
+        session: Carries what is said.
+        gauge: Measures how well that goes.
     """
 
     def __init__(
         self,
-        port: Line,
+        port: TappedLine,
         hello: messages.Hello,
         *,
         settings: BoardSettings,
@@ -82,6 +88,7 @@ class Connection:
         self._told_damage = False
         self._emergency: asyncio.Task[None] | None = None
         self.session = Session(port, self._take_sample, on_lost)
+        self.gauge = LinkGauge(port, self.session)
 
     async def configure(self) -> None:
         """Give the board its configuration unless it has it, and wait for its first sample.
@@ -169,6 +176,7 @@ class Connection:
         self._fresh.clear()
 
     def _take_sample(self, sample: messages.Telemetry, received_at_s: float) -> None:
+        self.gauge.take(sample)
         clock = self.session.clock
         sampled_at_s = received_at_s
         if clock.known:

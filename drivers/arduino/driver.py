@@ -21,6 +21,7 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
+from drivers.robot.link_health import LinkHealth
 from drivers.robot.telemetry_feed import TelemetryFeed
 from drivers.robot.traffic import Traffic
 from twin.geometry import RobotGeometry
@@ -66,6 +67,7 @@ class ArduinoRobot:
         self._settings = settings
         self._feed = TelemetryFeed()
         self._connection: Connection | None = None
+        self._connections = 0
         self._connecting = asyncio.Lock()
         self._closing: set[asyncio.Task[None]] = set()
 
@@ -93,6 +95,7 @@ class ArduinoRobot:
                     on_lost=self._lose,
                     traffic=self.traffic,
                 )
+                self._connections += 1
             return self._connection.identity
 
     async def close(self) -> None:
@@ -173,6 +176,15 @@ class ArduinoRobot:
     async def clear_fault(self) -> None:
         """Release a latched fault whose cause is gone."""
         await self._require().clear_fault()
+
+    # --- TellsLinkHealth ---------------------------------------------------------------------
+
+    def link_health(self) -> LinkHealth:
+        """The link now; without one only how often it was opened anew is known."""
+        reconnections = max(self._connections - 1, 0)
+        if self._connection is None:
+            return LinkHealth(reconnections)
+        return self._connection.gauge.read(reconnections)
 
     # --- inside ------------------------------------------------------------------------------
 

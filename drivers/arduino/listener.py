@@ -9,11 +9,10 @@ from drivers.arduino.link.frames import Frame, encode_frame
 from drivers.arduino.protocol import messages
 from drivers.arduino.protocol.message import Message
 from drivers.arduino.protocol.messages import PROTOCOL_HASH, Fault, State, TelemetryFlag
+from drivers.arduino.telemetry import temperature_degc
 
 REPEAT_SAMPLES = 50
 """Without a change every so many samples are told: five seconds at rest."""
-
-NOT_MEASURED_DC = -(1 << 15)
 
 _SIGNS = {
     TelemetryFlag.ENABLED: "drives on",
@@ -64,14 +63,13 @@ def sample_words(sample: messages.Telemetry) -> str:
     flags = TelemetryFlag(sample.flags)
     signs = [words for flag, words in _SIGNS.items() if flag in flags]
     one, two, _ = sample.commanded
+    warmth_degc = temperature_degc(sample)
     parts = [
         State(sample.state).name if sample.state in set(State) else f"state {sample.state}",
         *([Fault(sample.fault).name] if sample.fault in set(Fault) and sample.fault else []),
         f"rho1={one} rho2={two} rho3={sample.measured_rho3}",
         f"{sample.supply_mv / 1000:.1f} V",
-        "temperature unknown"
-        if sample.temperature_dc == NOT_MEASURED_DC
-        else f"{sample.temperature_dc / 10:.1f} degC",
+        "temperature unknown" if warmth_degc is None else f"{warmth_degc:.1f} degC",
         ", ".join(signs) or "nothing pressed",
     ]
     return "  ".join(parts)

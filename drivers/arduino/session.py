@@ -43,6 +43,10 @@ class Session:
         port: Where frames go.
         on_sample: Gets telemetry and when it was received.
         on_lost: Called once when the session has ended by itself.
+
+    Attributes:
+        clock: Of the board, on the host's clock.
+        received: Frames of the board since the session began.
     """
 
     def __init__(
@@ -52,6 +56,7 @@ class Session:
         on_lost: Callable[[LinkLostError], None],
     ) -> None:
         self.clock = BoardClock(messages.TICK_HZ)
+        self.received = 0
         self._loop = asyncio.get_running_loop()
         self._port = port
         self._on_sample = on_sample
@@ -68,6 +73,11 @@ class Session:
             asyncio.create_task(self._keep_alive(), name="board heartbeat"),
             asyncio.create_task(self._ask_time(), name="board clock"),
         ]
+
+    @property
+    def sent_again(self) -> int:
+        """Messages that were sent more than once because no acknowledgement came."""
+        return self._commands.sender.sent_again
 
     # --- what the driver does ----------------------------------------------------------------
 
@@ -139,6 +149,7 @@ class Session:
         if self._error is not None:
             return
         self._heard_s = received_s
+        self.received += 1
         message = frame.message
         match message:
             case messages.Hello(session=0):

@@ -74,6 +74,11 @@ class TappedLine:
             for frame in FrameReader(FROM_HOST).feed(data):
                 self._traffic.tell(passage_of(frame, now_s, to_board=True))
 
+    @property
+    def damaged(self) -> int | None:
+        """Frames that arrived damaged since the line was opened; None if the line counts none."""
+        return self._line.damaged if isinstance(self._line, CountsDamage) else None
+
     async def close(self) -> None:
         """Send what is queued and close the line. Safe to call twice."""
         if self._line is not None:
@@ -88,15 +93,11 @@ class TappedLine:
         self._on_frames(frames, received_s)
 
     def _count_damage(self, received_s: float) -> None:
-        more = _damaged_on(self._line) - self._damaged
+        more = (self.damaged or 0) - self._damaged
         self._damaged += more
         if more and self._traffic.heard:
             words = f"{more} with a wrong check sum or length"
             self._traffic.tell(Passage(received_s, False, "Damaged", words, error=True))
-
-
-def _damaged_on(line: object) -> int:
-    return line.damaged if isinstance(line, CountsDamage) else 0
 
 
 def passage_of(frame: Frame, at_s: float, *, to_board: bool) -> Passage:

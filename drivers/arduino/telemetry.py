@@ -18,6 +18,18 @@ from drivers.robot import (
 )
 from twin.joints import JointPosition, JointVelocity
 
+NOT_MEASURED_DC = -(1 << 15)
+
+
+def supply_v(sample: messages.Telemetry) -> float | None:
+    """Supply voltage of the board [V]; None before it was measured."""
+    return sample.supply_mv / 1000 if sample.supply_mv else None
+
+
+def temperature_degc(sample: messages.Telemetry) -> float | None:
+    """Temperature on the board [degC]; None before it was measured."""
+    return None if sample.temperature_dc == NOT_MEASURED_DC else sample.temperature_dc / 10
+
 
 def robot_state(
     sample: messages.Telemetry,

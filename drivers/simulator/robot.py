@@ -15,6 +15,7 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
+from drivers.robot.link_health import LinkHealth, RoundTrip
 from drivers.robot.telemetry_feed import TelemetryFeed
 from drivers.robot.traffic import Traffic
 from drivers.simulator.board import SimulatedBoard
@@ -52,6 +53,7 @@ class SimulatedRobot:
         self._homing_task: asyncio.Task[None] | None = None
         self._cable = True
         self._linked = False
+        self._links = 0
 
     # --- RobotDriver -------------------------------------------------------------------------
 
@@ -68,7 +70,7 @@ class SimulatedRobot:
             await asyncio.sleep(self._numbers.boot_s)
             self._board.finish_boot(self._now())
             self._board_task = asyncio.create_task(self._run_board(), name="simulated board")
-        self._linked = True
+        self._open_link()
         return RobotIdentity(
             name="Simulator",
             firmware="simulated",
@@ -153,6 +155,17 @@ class SimulatedRobot:
     async def clear_fault(self) -> None:
         """Release a latched fault whose cause is gone."""
         await self._send("ClearFault", self._board.clear_fault)
+
+    # --- TellsLinkHealth ---------------------------------------------------------------------
+
+    def link_health(self) -> LinkHealth:
+        """The link as it is modelled: commands and answers take a fixed time.
+
+        There are no frames that could be counted or damaged, and the supply is not modelled.
+        """
+        linked = self._linked and self._cable
+        there_and_back_s = [2 * self._numbers.command_delay_s] if linked else []
+        return LinkHealth(max(self._links - 1, 0), RoundTrip.of(there_and_back_s))
 
     # --- fault injection ---------------------------------------------------------------------
 
@@ -296,7 +309,11 @@ class SimulatedRobot:
 
     def _reconnect(self) -> None:
         if self._cable and self._board_task is not None:
-            self._linked = True
+            self._open_link()
+
+    def _open_link(self) -> None:
+        self._links += not self._linked
+        self._linked = True
 
     def _require_link(self) -> None:
         if not (self._linked and self._cable):

@@ -45,6 +45,7 @@ OPERATIONS: Mapping[str, Need] = {
     "answerControlRequest": Need.OPERATE,
     "giveControlBack": Need.OPERATE,
     "getRobotReach": Need.READ,
+    "getRobotLink": Need.READ,
     "jogRobot": Need.SERVICE,
     "confirmPlug": Need.OPERATE,
     "readFrames": Need.SERVICE,

@@ -24,6 +24,14 @@ class Telemetry:
         """The newest sample, or None while the link is down."""
         return self._history[-1] if self._history else None
 
+    @property
+    def rate_hz(self) -> float | None:
+        """Samples per second in the last HISTORY_S; None before there are two."""
+        if len(self._history) < 2:
+            return None
+        span_s = self._history[-1].sampled_at_s - self._history[0].sampled_at_s
+        return (len(self._history) - 1) / span_s if span_s > 0 else None
+
     def require(self) -> RobotState:
         """The newest sample.
 

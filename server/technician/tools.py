@@ -13,6 +13,7 @@ from server.control.targets import Targets
 from server.storage.vehicles import VehicleStore
 from server.technician.camera_inspection import CameraInspector
 from server.technician.console import ProtocolConsole
+from server.technician.link_report import LinkReporter
 from server.technician.recent_log import RecentLog
 from server.timing import Calendar
 
@@ -30,12 +31,14 @@ class TechnicianTools:
         camera: Looks closely at the camera's pictures.
         targets: Where somebody wants the robot to go.
         console: What goes over the link to the motion board.
+        link: How well that link does.
         log: The newest lines of the log.
     """
 
     camera: CameraInspector
     targets: Targets
     console: ProtocolConsole
+    link: LinkReporter
     log: RecentLog
 
     async def close(self) -> None:
@@ -82,5 +85,6 @@ def make_tools(
         console=ProtocolConsole(
             robot, calendar, wait_s=CONSOLE_WAIT_S * speed, patience_s=CONSOLE_PATIENCE_S * speed
         ),
+        link=LinkReporter(robot, supervisor.telemetry, calendar),
         log=log,
     )

@@ -55,6 +55,11 @@ class BoardClock:
         """Estimated length of a tick on the host's clock [s]."""
         return self._tick_s
 
+    @property
+    def round_trips_s(self) -> list[float]:
+        """How long the newest answers took [s], oldest first; at most KEPT_ANSWERS."""
+        return [answer.round_trip_s for answer in self._answers]
+
     def add_answer(self, asked_s: float, answered_s: float, tick: int) -> None:
         """Learn from an answer.
 

@@ -10,6 +10,7 @@ from server.api.dependencies import ServicesDep
 from server.api.problems import problem_responses
 from server.control.model import PlugState
 from server.live.views import robot_view
+from server.schema.link import LinkReport
 from server.schema.robot import JogStep, PlugConfirmation, Reach, Robot, WayLeft
 from server.services import Services
 
@@ -36,6 +37,12 @@ async def get_reach(services: ServicesDep) -> Reach:
     # Some milliseconds of kinematics, which the control loop shall not wait for.
     ways = await asyncio.to_thread(services.jog.ways_left_mm)
     return Reach(**{axis: WayLeft(back_mm=back, on_mm=on) for axis, (back, on) in ways.items()})
+
+
+@router.get("/link", operation_id="getRobotLink", summary="Read how the link does")
+async def get_link(services: ServicesDep) -> LinkReport:
+    """How well the link to the motion board does; null is what nobody has measured."""
+    return services.technician.link.report()
 
 
 @router.post("/stop", operation_id="stopRobot", summary="Stop")

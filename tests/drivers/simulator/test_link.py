@@ -15,6 +15,7 @@ from drivers.robot import (
     RobotState,
     StopCategory,
 )
+from drivers.robot.link_health import LinkHealth, RoundTrip, TellsLinkHealth
 from drivers.robot.telemetry_feed import KEPT_SAMPLES
 from drivers.simulator.garage import build_garage
 from tests.drivers.simulator.stand import GEOMETRY, HOMED, LIMITS, PERFECT, Stand, on_stand, run
@@ -185,8 +186,29 @@ def test_a_short_glitch_of_the_cable_goes_unnoticed() -> None:
         await asyncio.sleep(0.1)
         stand.robot.replug_link()
         await asyncio.sleep(1.0)
+        assert stand.robot.link_health().reconnections == 0
         assert (await anext(telemetry)).fault is None
         assert (await stand.state()).fault is None
+
+    on_stand(scenario)
+
+
+def test_a_simulated_link_tells_what_is_modelled_and_makes_nothing_up() -> None:
+    async def scenario(stand: Stand) -> None:
+        robot = stand.robot
+        assert isinstance(robot, TellsLinkHealth)
+        there_and_back_s = 2 * PERFECT.board.command_delay_s
+        times = RoundTrip(there_and_back_s, there_and_back_s, there_and_back_s, 1)
+        assert robot.link_health() == LinkHealth(reconnections=0, round_trip=times)
+        asked_s = stand.now_s
+        await robot.set_force_limit(50.0)
+        assert stand.now_s - asked_s == pytest.approx(there_and_back_s)
+        robot.unplug_link()
+        await asyncio.sleep(1.0)
+        assert robot.link_health() == LinkHealth(reconnections=0)
+        robot.replug_link()
+        await asyncio.sleep(1.0)
+        assert robot.link_health() == LinkHealth(reconnections=1, round_trip=times)
 
     on_stand(scenario)
 

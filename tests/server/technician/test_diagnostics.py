@@ -81,7 +81,7 @@ def test_everything_promised_is_in_it() -> None:
         assert "Telemetry" in found["protocol.txt"]
         assert "enableRobot" in found["audit.jsonl"]
         assert json.loads(found["jobs.json"]) == []
-        assert json.loads(found["link.json"])["telemetry_age_s"] < 1
+        assert json.loads(found["link.json"])["link"]["sample_age_s"] < 1
 
     on_api(scenario, settings=SETTINGS)
 

@@ -1559,6 +1559,26 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/robot/link": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read how the link does
+         * @description How well the link to the motion board does; null is what nobody has measured.
+         */
+        readonly get: operations["getRobotLink"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/robot/plug-confirmation": {
         readonly parameters: {
             readonly query?: never;
@@ -4474,6 +4494,77 @@ export interface components {
             readonly version: string;
         };
         /**
+         * LinkReport
+         * @description The link to the motion board. Counters begin at zero whenever the link is opened.
+         *
+         *     What is not known is null: nothing is measured without a link, and a simulated board has no
+         *     frames that could be damaged.
+         */
+        readonly LinkReport: {
+            /**
+             * At
+             * Format: date-time
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Damaged
+             * @description Frames from the board that came damaged
+             */
+            readonly damaged: number | null;
+            /**
+             * Damaged At Board
+             * @description Frames to the board that came damaged there
+             */
+            readonly damaged_at_board: number | null;
+            /**
+             * Online
+             * @description Telemetry comes
+             */
+            readonly online: boolean;
+            /**
+             * Received
+             * @description Intact frames from the board
+             */
+            readonly received: number | null;
+            /**
+             * Reconnections
+             * @description How often the link was opened anew since PlugPilot was started
+             */
+            readonly reconnections: number | null;
+            readonly round_trip: components["schemas"]["RoundTripTimes"] | null;
+            /**
+             * Sample Age S
+             * @description Of the newest sample, at this moment
+             */
+            readonly sample_age_s: number | null;
+            /**
+             * Sample Delay S
+             * @description From when the board took the newest sample until it was here
+             */
+            readonly sample_delay_s: number | null;
+            /**
+             * Sent Again
+             * @description Messages sent again because no acknowledgement came in time
+             */
+            readonly sent_again: number | null;
+            /**
+             * Supply V
+             * @description Supply of the board; null if not measured
+             */
+            readonly supply_v: number | null;
+            /**
+             * Telemetry Hz
+             * @description Samples per second lately: about 10 at rest, about 100 while it moves
+             */
+            readonly telemetry_hz: number | null;
+            /**
+             * Temperature Degc
+             * @description On the board; null if not measured
+             */
+            readonly temperature_degc: number | null;
+        };
+        /**
          * Live
          * @description Every live section.
          */
@@ -5566,6 +5657,29 @@ export interface components {
              * @description Of a socket: whose
              */
             readonly vehicle_id?: string | null;
+        };
+        /**
+         * RoundTripTimes
+         * @description From a question to the board until its answer.
+         */
+        readonly RoundTripTimes: {
+            /**
+             * Answers
+             * @description How many those are
+             */
+            readonly answers: number;
+            /**
+             * Median S
+             * @description Of the newest answers
+             */
+            readonly median_s: number;
+            /** Newest S */
+            readonly newest_s: number;
+            /**
+             * Worst S
+             * @description The slowest of the newest answers
+             */
+            readonly worst_s: number;
         };
         /**
          * Routine
@@ -11330,6 +11444,52 @@ export interface operations {
             readonly 409: components["responses"]["Problem409"];
             readonly 413: components["responses"]["Problem413"];
             readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getRobotLink: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "at": "2026-03-01T18:04:05.120Z",
+                     *       "damaged": 0,
+                     *       "damaged_at_board": 0,
+                     *       "online": true,
+                     *       "received": 18204,
+                     *       "reconnections": 0,
+                     *       "round_trip": {
+                     *         "answers": 32,
+                     *         "median_s": 0.0013,
+                     *         "newest_s": 0.0012,
+                     *         "worst_s": 0.0041
+                     *       },
+                     *       "sample_age_s": 0.0613,
+                     *       "sample_delay_s": 0.0021,
+                     *       "sent_again": 0,
+                     *       "supply_v": 12.08,
+                     *       "telemetry_hz": 10.01,
+                     *       "temperature_degc": 31.4
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["LinkReport"];
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };
