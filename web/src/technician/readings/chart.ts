@@ -48,14 +48,14 @@ function optionsOf({ title, curves, x, span }: Chart, place: HTMLElement): uPlot
   const colour = (name: string): string => getComputedStyle(place).getPropertyValue(name).trim();
   const colours = [colour("--busy"), colour("--good"), colour("--ask")];
   const axis = { stroke: colour("--soft"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false } };
-  const along = x.range === undefined ? {} : { range: [...x.range] as [number, number] };
+  const always = x.range === undefined ? null : ([...x.range] as [number, number]);
   return {
     title,
     width: place.clientWidth,
     height: HEIGHT_PX,
     cursor: { drag: { x: false, y: false } },
     legend: { show: curves.length > 1, live: false },
-    scales: { x: { time: false, ...along }, y: { range: atLeast(span) } },
+    scales: { x: { time: false, range: always ?? asMeasured }, y: { range: atLeast(span) } },
     axes: [{ ...axis, size: 24, values: withUnit(x.unit) }, { ...axis, size: 48 }],
     series: [
       {},
@@ -74,6 +74,12 @@ function optionsOf({ title, curves, x, span }: Chart, place: HTMLElement): uPlot
 function withUnit(unit: string): (plot: uPlot, marks: number[]) => string[] {
   return (_plot, marks) =>
     marks.map((mark, number) => (number === marks.length - 1 ? `${String(mark)} ${unit}` : String(mark)));
+}
+
+/** The whole way that was measured; something to look at before there is any. */
+function asMeasured(_plot: uPlot, low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null) return [0, 100];
+  return low === high ? [low - 1, high + 1] : [low, high];
 }
 
 /** A range around the data that is never narrower than a span. */
