@@ -309,6 +309,11 @@ def _force_guide(page: Page) -> None:
     page.locator(".calibration-guide").wait_for()
 
 
+def _board(page: Page) -> None:
+    _calibration(page)
+    page.locator(".board-overlay").wait_for()
+
+
 def _news(page: Page) -> None:
     open_panel(page, "diagnostics")
     page.locator(".diagnostics-news summary").click()
@@ -333,6 +338,7 @@ OPENED: Mapping[str, tuple[Live, Callable[[Page], None]]] = {
     "calibration-guide-force": (SCENES["ready"], _force_guide),
     "news": (SCENES["ready"], _news),
     **{name: (live, _calibration) for name, live in CALIBRATIONS.items()},
+    "calibration-board": (CALIBRATIONS["calibration-board"], _board),
     **{title: (SCENES["ready"], _to_panel(title)) for title in PANELS[1:]},
 }
 """What is opened on the technician's page, each with the state it is opened in."""

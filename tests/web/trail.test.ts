@@ -55,5 +55,8 @@ describe("the trail", () => {
     expect(callerOf(entry({ actor: "key: Home: Assistant" }), fr)).toBe("Home: Assistant (programme)");
     expect(callerOf(entry({ actor: "machine" }), it)).toBe("il robot stesso");
     expect(callerOf(entry({ actor: "martian" }), en)).toBe("martian");
+    const pairing = readFileSync("../server/access/pairing.py", "utf-8");
+    const terminal = /^MACHINE = "(.*)"$/m.exec(pairing)?.[1] ?? "";
+    expect(callerOf(entry({ actor: terminal }), de)).toBe("der Roboter selbst");
   });
 });

@@ -16,12 +16,15 @@ export function titleOf({ event, detail }: TrailEntry, words: TrailWords): strin
 
 /** By whom; a kind without a name where there is none. */
 export function callerOf({ actor }: TrailEntry, words: TrailWords): string {
+  if (actor === AT_THE_MACHINE) return words.callers.machine;
   const [kind = "", ...rest] = actor.split(": ");
   const name = rest.join(": ");
   if (name === "") return nameIn(words.callers, kind) ?? actor;
   return kind === "key" ? words.program(name) : name;
 }
 
+/** Whoever has the machine's own terminal (server/access/pairing.py). */
+const AT_THE_MACHINE = "the machine itself";
 const FAILED = 400;
 
 function factsOf(detail: TrailEntry["detail"]): string[] {

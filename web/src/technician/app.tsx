@@ -2,6 +2,8 @@ import { CalibrationPanel } from "@/calibration/opening";
 import { ControlNotice, ControlQuestion } from "@/control/notices";
 import { QuestionDialog } from "@/parts/dialogs";
 import { Header } from "@/parts/header";
+import { Notices } from "@/parts/notices";
+import { TwinAlarm } from "@/parts/twin-alarm";
 import { CameraPanel } from "./camera/panel";
 import { ConfigPanel } from "./config/panel";
 import { ConsolePanel } from "./console/panel";
@@ -26,6 +28,8 @@ export function Technician() {
           <UpdatedLine />
           <ControlNotice />
           <RobotBox />
+          <TwinAlarm />
+          <Notices />
           <Values />
         </div>
         <div class="column">

@@ -6,6 +6,7 @@ import "@/style/tokens.css";
 import "@/style/page.css";
 import "@/style/controls.css";
 import "@/style/cards.css";
+import "@/style/notices.css";
 import "@/style/views.css";
 import "@/access/access.css";
 import "./bench.css";
