@@ -43,7 +43,7 @@ describe("the panel", () => {
     await screen.findByText("318.442 ± 0.021 mm");
     expect(document.querySelectorAll("svg polygon.outline").length).toBe(1);
     expect(document.querySelectorAll("svg ellipse.sigma").length).toBe(2);
-    await screen.findByText("30.0 /s");
+    await screen.findByText("30.0 Hz");
     cleanup();
     const asked = rest.requests.length;
     await new Promise((resolve) => setTimeout(resolve, 30));

@@ -49,6 +49,7 @@ export type ConfigurationVersion = Schemas["ConfigurationVersion"];
 export type Versions = Schemas["Versions"];
 export type ProtocolFrame = Schemas["ProtocolFrame"];
 export type ProtocolFrames = Schemas["ProtocolFrames"];
+export type LinkReport = Schemas["LinkReport"];
 export type MoveTarget = Schemas["MoveTarget"];
 export type CameraInspection = Schemas["CameraInspection"];
 export type JogMessage = Schemas["JogMessage"];

@@ -7,6 +7,7 @@ import { TwinAlarm } from "@/parts/twin-alarm";
 import { CameraPanel } from "./camera/panel";
 import { ConfigPanel } from "./config/panel";
 import { ConsolePanel } from "./console/panel";
+import { LinkPanel } from "./link/panel";
 import { DiagnosticsPanel } from "./diagnostics/panel";
 import { UpdatedLine } from "./diagnostics/updated-line";
 import { JogPad } from "./jog/pad";
@@ -36,6 +37,7 @@ export function Technician() {
           <JogPad />
           <CalibrationPanel />
           <TargetPanel />
+          <LinkPanel />
           <ConsolePanel />
         </div>
         <div class="column">

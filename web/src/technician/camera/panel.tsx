@@ -1,7 +1,9 @@
 import type { CameraInspection } from "@/api/wire";
 import { formatNumber } from "@/format";
+import { Figures } from "../parts/figures";
 import { Panel } from "../parts/panel";
 import { TroubleNote } from "../parts/trouble";
+import { HealthFigures, HealthOverTime, share } from "./health";
 import { Picture, sentenceOf, useCamera } from "./picture";
 import { say } from "./words";
 
@@ -20,10 +22,11 @@ function Camera() {
       <Picture shown={now} old={trouble.value !== null} />
       <TroubleNote trouble={trouble.value} />
       <p class="panel-note camera-note">{now === null ? say.loading : sentenceOf(now.inspection)}</p>
-      <div class="camera-figures">
+      <div class="panel-figures">
         <PoseFigures label={now?.inspection.label ?? null} />
-        <Health inspection={now?.inspection ?? null} />
+        <HealthFigures inspection={now?.inspection ?? null} />
       </div>
+      <HealthOverTime shown={shown} />
     </>
   );
 }
@@ -51,42 +54,6 @@ function PoseFigures({ label }: { label: SeenLabel | null }) {
     />
   );
 }
-
-function Health({ inspection }: { inspection: CameraInspection | null }) {
-  const show = (value: number | null | undefined, digits: number, unit: string): string =>
-    value == null ? say.unknown : `${formatNumber(value, digits)}${unit}`;
-  return (
-    <Figures
-      title={say.health.title}
-      lines={[
-        [say.health.rate, show(inspection?.frames_per_s, 1, " /s")],
-        [say.health.age, show(inspection && inspection.age_s * 1000, 0, " ms")],
-        [say.health.exposure, show(inspection?.exposure_ms, 1, " ms")],
-        [say.health.brightness, show(inspection?.brightness, 0, "")],
-        [say.health.dark, inspection === null ? say.unknown : share(inspection.dark_share)],
-        [say.health.bright, inspection === null ? say.unknown : share(inspection.bright_share)],
-      ]}
-    />
-  );
-}
-
-function Figures({ title, lines }: { title: string; lines: readonly (readonly [string, string])[] }) {
-  return (
-    <div>
-      <h3>{title}</h3>
-      <dl class="list">
-        {lines.map(([name, value]) => (
-          <div key={name}>
-            <dt>{name}</dt>
-            <dd>{value}</dd>
-          </div>
-        ))}
-      </dl>
-    </div>
-  );
-}
-
-const share = (part: number): string => `${formatNumber(100 * part, 1)} %`;
 
 /** A value and its standard deviation, with as many digits as that deserves. */
 function within(value: number, sigma: number, unit: string): string {

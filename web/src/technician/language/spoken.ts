@@ -8,6 +8,7 @@ import type {
   ConfigWords,
   ConsoleWords,
   DiagnosticsWords,
+  LinkWords,
   Spoken,
   TargetWords,
 } from "./types";
@@ -29,4 +30,5 @@ export const console = catalogue<ConsoleWords>(async (spoken) => (await FILES[sp
 export const diagnostics = catalogue<DiagnosticsWords>(
   async (spoken) => (await FILES[spoken]()).diagnostics,
 );
+export const link = catalogue<LinkWords>(async (spoken) => (await FILES[spoken]()).link);
 export const target = catalogue<TargetWords>(async (spoken) => (await FILES[spoken]()).target);

@@ -5,6 +5,7 @@ import type { camera } from "./en/camera";
 import type { config } from "./en/config";
 import type { console } from "./en/console";
 import type { diagnostics } from "./en/diagnostics";
+import type { link } from "./en/link";
 import type { target } from "./en/target";
 
 export type BenchWords = typeof bench;
@@ -13,6 +14,7 @@ export type CameraWords = typeof camera;
 export type ConfigWords = typeof config;
 export type ConsoleWords = typeof console;
 export type DiagnosticsWords = typeof diagnostics;
+export type LinkWords = typeof link;
 export type TargetWords = typeof target;
 
 /** One language: its file is loaded with the technician's page only. */
@@ -23,5 +25,6 @@ export interface Spoken {
   readonly config: ConfigWords;
   readonly console: ConsoleWords;
   readonly diagnostics: DiagnosticsWords;
+  readonly link: LinkWords;
   readonly target: TargetWords;
 }

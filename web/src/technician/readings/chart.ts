@@ -11,9 +11,16 @@ export interface Chart {
   };
   /** The upright axis shows at least this much, so that noise does not fill it. */
   readonly span: number;
+  /** What is never below zero: the upright axis begins there. */
+  readonly fromZero?: boolean;
 }
 
 const HEIGHT_PX = 150;
+const TITLE_PX = 28;
+const LEGEND_PX = 30;
+
+/** What a chart takes, so that its place can be kept before it is drawn. */
+export const heightOf = ({ curves }: Chart): number => HEIGHT_PX + TITLE_PX + (curves.length > 1 ? LEGEND_PX : 0);
 
 /** Charts in an element, one below the other, as wide as it is. */
 export class Charts {
@@ -44,7 +51,7 @@ export class Charts {
   }
 }
 
-function optionsOf({ title, curves, x, span }: Chart, place: HTMLElement): uPlot.Options {
+function optionsOf({ title, curves, x, span, fromZero }: Chart, place: HTMLElement): uPlot.Options {
   const colour = (name: string): string => getComputedStyle(place).getPropertyValue(name).trim();
   const colours = [colour("--busy"), colour("--good"), colour("--ask")];
   const axis = { stroke: colour("--soft"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false } };
@@ -55,7 +62,7 @@ function optionsOf({ title, curves, x, span }: Chart, place: HTMLElement): uPlot
     height: HEIGHT_PX,
     cursor: { drag: { x: false, y: false } },
     legend: { show: curves.length > 1, live: false },
-    scales: { x: { time: false, range: always ?? asMeasured }, y: { range: atLeast(span) } },
+    scales: { x: { time: false, range: always ?? asMeasured }, y: { range: fromZero === true ? upToAtLeast(span) : atLeast(span) } },
     axes: [{ ...axis, size: 24, values: withUnit(x.unit) }, { ...axis, size: 48 }],
     series: [
       {},
@@ -80,6 +87,11 @@ function withUnit(unit: string): (plot: uPlot, marks: number[]) => string[] {
 function asMeasured(_plot: uPlot, low: number | null, high: number | null): [number, number] {
   if (low === null || high === null) return [0, 100];
   return low === high ? [low - 1, high + 1] : [low, high];
+}
+
+/** A range from zero that reaches a span at least. */
+function upToAtLeast(span: number): (plot: uPlot, low: number | null, high: number | null) => [number, number] {
+  return (_plot, _low, high) => [0, Math.max(span, (high ?? 0) * 1.1)];
 }
 
 /** A range around the data that is never narrower than a span. */

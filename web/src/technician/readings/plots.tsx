@@ -1,16 +1,14 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type uPlot from "uplot";
-import { language } from "@/language/language";
 import { store } from "@/live/page";
 import { say } from "../words";
-import { Charts } from "./chart";
 import type { Chart } from "./chart";
+import { Curves } from "./curves";
 import { forceOverWay } from "./force-way";
 import { empty, record, SPAN_S } from "./history";
-import type { Columns } from "./history";
-
-type Curve = Exclude<keyof Columns, "t_s">;
+import type { Columns, Curve } from "./history";
+import { secondsAgo } from "./past";
 
 /** Curves of the last minute, and what each is called in every language. */
 const OVER_TIME: readonly (Readonly<{ title: "joints" | "errors" | "force"; span: number }> & {
@@ -21,25 +19,26 @@ const OVER_TIME: readonly (Readonly<{ title: "joints" | "errors" | "force"; span
   { title: "force", span: 10, curves: [["force", "F"]] },
 ];
 
-/** The last minute as curves; the library for them comes only when this is shown. */
+/** The last minute as curves. */
 export function Plots() {
   const still = useSignal(false);
-  const place = useRef<HTMLDivElement>(null);
-  const loaded = useSignal(false);
   const columns = useRef(empty());
+  const data = useSignal(dataOf(columns.current));
   useEffect(() => {
-    let end: (() => void) | null = null;
-    let gone = false;
-    void import("uplot").then(({ default: Plot }) => {
-      if (gone || place.current === null) return;
-      loaded.value = true;
-      end = follow(new Charts(Plot, place.current, chartsNow()), columns.current, still);
+    let asked = 0;
+    const show = (): void => {
+      asked = 0;
+      data.value = dataOf(columns.current);
+    };
+    const forget = store.live.subscribe((live) => {
+      if (live === null || !record(columns.current, live.robot) || still.peek()) return;
+      if (asked === 0) asked = requestAnimationFrame(show);
     });
     return () => {
-      gone = true;
-      end?.();
+      forget();
+      cancelAnimationFrame(asked);
     };
-  }, [language.value]);
+  }, []);
   return (
     <section class="card plots">
       <div class="card-head">
@@ -55,28 +54,9 @@ export function Plots() {
           {still.value ? say.plots.go : say.plots.hold}
         </button>
       </div>
-      {!loaded.value && <p class="soft">{say.plots.loading}</p>}
-      <div ref={place} class="plots-place" />
+      <Curves charts={chartsNow} data={data} />
     </section>
   );
-}
-
-/** Keeps the charts going; returns how to end it. */
-function follow(charts: Charts, columns: Columns, still: { readonly value: boolean }): () => void {
-  let asked = 0;
-  const show = (): void => {
-    asked = 0;
-    charts.show(dataOf(columns));
-  };
-  const forget = store.live.subscribe((live) => {
-    if (live === null || !record(columns, live.robot) || still.value) return;
-    if (asked === 0) asked = requestAnimationFrame(show);
-  });
-  return () => {
-    forget();
-    cancelAnimationFrame(asked);
-    charts.end();
-  };
 }
 
 function chartsNow(): readonly Chart[] {
@@ -92,13 +72,12 @@ function chartsNow(): readonly Chart[] {
   ];
 }
 
-/** In the order of the charts; times as seconds before the newest, so that the axis stands. */
+/** In the order of the charts. */
 function dataOf(columns: Columns): readonly uPlot.AlignedData[] {
-  const now_s = columns.t_s.at(-1) ?? 0;
-  const before_s = columns.t_s.map((t_s) => t_s - now_s);
+  const ago_s = secondsAgo(columns);
   const { way_mm, out_n, back_n } = forceOverWay(columns);
   return [
-    ...OVER_TIME.map(({ curves }): uPlot.AlignedData => [before_s, ...curves.map(([curve]) => columns[curve])]),
+    ...OVER_TIME.map(({ curves }): uPlot.AlignedData => [ago_s, ...curves.map(([curve]) => columns[curve])]),
     [[...way_mm], [...out_n], [...back_n]],
   ];
 }

@@ -32,6 +32,14 @@ export const camera: CameraWords = {
     brightness: "Mittleres Grau, 0 bis 255",
     dark: "Ohne Licht",
     bright: "Übersteuert",
+    rateOverTime: "Bilder, Hz",
+    ageOverTime: "Alter beim Auswerten, ms",
+    verdicts: {
+      asking: ["Warten", "Das erste Bild ist noch nicht da."],
+      slow: ["Langsam", "Es kommen wenige Bilder. Ist der Rechner beschäftigt, die Belichtung aus Mangel an Licht lang oder das Netz langsam?"],
+      late: ["Spät", "Die Bilder sind alt, wenn sie ausgewertet sind. Ist der Rechner beschäftigt oder das Netz langsam?"],
+      good: ["Gut", "Die Bilder kommen oft und früh genug."],
+    },
   },
   unknown: "–",
 };

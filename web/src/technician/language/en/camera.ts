@@ -1,5 +1,14 @@
 /** Every sentence of the camera's panel. */
 import { formatNumber } from "@/format";
+import type { CameraVerdict } from "../../camera/health";
+
+/** The word, and what to do. */
+const verdicts: Record<CameraVerdict, readonly [string, string]> = {
+  asking: ["Waiting", "The first picture has not come yet."],
+  slow: ["Slow", "Few pictures come. Is the computer busy, is the exposure long for want of light, or is the network slow?"],
+  late: ["Late", "Pictures are old when they have been looked at. Is the computer busy, or is the network slow?"],
+  good: ["Good", "Pictures come often and soon enough."],
+};
 
 export const camera = {
   title: "Camera",
@@ -33,6 +42,9 @@ export const camera = {
     brightness: "Mean grey, 0 to 255",
     dark: "Without light",
     bright: "Clipped",
+    rateOverTime: "Frame rate, Hz",
+    ageOverTime: "Age when looked at, ms",
+    verdicts,
   },
   unknown: "–",
 };

@@ -33,6 +33,14 @@ export const camera: CameraWords = {
     brightness: "Gris moyen, 0 à 255",
     dark: "Sans lumière",
     bright: "Saturé",
+    rateOverTime: "Images, Hz",
+    ageOverTime: "Âge à l’examen, ms",
+    verdicts: {
+      asking: ["Attente", "La première image n’est pas encore là."],
+      slow: ["Lent", "Il vient peu d’images. L’ordinateur est-il occupé, la pose longue faute de lumière ou le réseau lent\u00a0?"],
+      late: ["En retard", "Les images sont vieilles une fois examinées. L’ordinateur est-il occupé ou le réseau lent\u00a0?"],
+      good: ["Bon", "Les images viennent assez souvent et assez tôt."],
+    },
   },
   unknown: "–",
 };

@@ -4,4 +4,5 @@ export { camera } from "./camera";
 export { config } from "./config";
 export { console } from "./console";
 export { diagnostics } from "./diagnostics";
+export { link } from "./link";
 export { target } from "./target";

@@ -33,6 +33,14 @@ export const camera: CameraWords = {
     brightness: "Grigio medio, da 0 a 255",
     dark: "Senza luce",
     bright: "Saturo",
+    rateOverTime: "Immagini, Hz",
+    ageOverTime: "Età all’esame, ms",
+    verdicts: {
+      asking: ["In attesa", "La prima immagine non c’è ancora."],
+      slow: ["Lento", "Arrivano poche immagini. Il computer è occupato, l’esposizione lunga per poca luce o la rete lenta?"],
+      late: ["In ritardo", "Le immagini sono vecchie quando sono esaminate. Il computer è occupato o la rete lenta?"],
+      good: ["Bene", "Le immagini arrivano abbastanza spesso e abbastanza presto."],
+    },
   },
   unknown: "–",
 };

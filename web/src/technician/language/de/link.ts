@@ -1,0 +1,33 @@
+import type { LinkWords } from "../types";
+
+export const link: LinkWords = {
+  title: "Verbindung zur Platine",
+  hint: "Verzug, Rate, Schäden",
+  now: "Jetzt",
+  sinceOpened: "Seit die Verbindung steht",
+  rate: "Telemetrierate",
+  age: "Alter der neuesten Messung",
+  delay: "Verzug einer Messung",
+  roundTrip: "Umlaufzeit",
+  median: "Umlaufzeit, Median",
+  worst: "Umlaufzeit, längste",
+  supply: "Versorgung der Platine",
+  temperature: "Temperatur der Platine",
+  received: "Empfangene Rahmen",
+  damaged: "Hier beschädigte Rahmen",
+  damagedAtBoard: "An der Platine beschädigte Rahmen",
+  again: "Wiederholte Nachrichten",
+  reconnections: "Neu verbunden seit dem Start",
+  unmeasured: "–: wird nicht gemessen, etwa Schäden auf einer simulierten Verbindung.",
+  times: "Umlaufzeit und Verzug, ms",
+  rateOverTime: "Telemetrierate, Hz",
+  unknown: "–",
+  verdicts: {
+    asking: ["Warten", "Die Verbindung wird befragt."],
+    offline: ["Keine Verbindung", "Es kommt keine Telemetrie. USB-Kabel und Versorgung der Platine prüfen; was fehlt, steht im Feld des Roboters."],
+    interrupted: ["Unterbrochen", "Die Verbindung riss in den letzten Minuten ab und wurde neu aufgebaut. Prüfen, ob beide Stecker des USB-Kabels fest sitzen."],
+    damaged: ["Beschädigte Rahmen", "USB-Kabel und seinen Schirm prüfen und es von den Motorkabeln entfernt verlegen."],
+    slow: ["Langsam", "Antworten oder Messungen kommen spät oder gar nicht. Ist der Rechner beschäftigt, oder führt das Kabel über einen Hub?"],
+    good: ["Gut", "Antworten kommen sofort, und nichts ist beschädigt."],
+  },
+};

@@ -1,0 +1,33 @@
+import type { LinkWords } from "../types";
+
+export const link: LinkWords = {
+  title: "Liaison avec la carte",
+  hint: "Retards, cadence, dégâts",
+  now: "Maintenant",
+  sinceOpened: "Depuis l’ouverture de la liaison",
+  rate: "Cadence de télémétrie",
+  age: "Âge de la dernière mesure",
+  delay: "Retard d’une mesure",
+  roundTrip: "Aller-retour",
+  median: "Aller-retour, médiane",
+  worst: "Aller-retour, le plus lent",
+  supply: "Alimentation de la carte",
+  temperature: "Température de la carte",
+  received: "Trames reçues",
+  damaged: "Trames abîmées ici",
+  damagedAtBoard: "Trames abîmées à la carte",
+  again: "Messages renvoyés",
+  reconnections: "Reconnexions depuis le démarrage",
+  unmeasured: "–\u00a0: personne ne le mesure, comme les dégâts sur une liaison simulée.",
+  times: "Aller-retour et retard, ms",
+  rateOverTime: "Cadence de télémétrie, Hz",
+  unknown: "–",
+  verdicts: {
+    asking: ["Attente", "La liaison est interrogée."],
+    offline: ["Pas de liaison", "Il ne vient pas de télémétrie. Vérifiez le câble USB et l’alimentation de la carte\u00a0; la case du robot dit ce qui manque."],
+    interrupted: ["Interrompue", "La liaison a été perdue et rouverte ces dernières minutes. Vérifiez que les deux fiches du câble USB tiennent bien."],
+    damaged: ["Trames abîmées", "Vérifiez le câble USB et son blindage, et éloignez-le des câbles des moteurs."],
+    slow: ["Lente", "Les réponses ou les mesures viennent tard ou pas du tout. L’ordinateur est-il occupé, ou le câble passe-t-il par un concentrateur\u00a0?"],
+    good: ["Bonne", "Les réponses viennent aussitôt et rien n’est abîmé."],
+  },
+};

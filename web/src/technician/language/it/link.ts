@@ -1,0 +1,33 @@
+import type { LinkWords } from "../types";
+
+export const link: LinkWords = {
+  title: "Collegamento alla scheda",
+  hint: "Ritardi, cadenza, danni",
+  now: "Adesso",
+  sinceOpened: "Da quando il collegamento è aperto",
+  rate: "Cadenza della telemetria",
+  age: "Età dell’ultima misura",
+  delay: "Ritardo di una misura",
+  roundTrip: "Andata e ritorno",
+  median: "Andata e ritorno, mediana",
+  worst: "Andata e ritorno, peggiore",
+  supply: "Alimentazione della scheda",
+  temperature: "Temperatura della scheda",
+  received: "Trame ricevute",
+  damaged: "Trame danneggiate qui",
+  damagedAtBoard: "Trame danneggiate alla scheda",
+  again: "Messaggi ripetuti",
+  reconnections: "Ricollegamenti dall’avvio",
+  unmeasured: "–: nessuno lo misura, come i danni su un collegamento simulato.",
+  times: "Andata e ritorno e ritardo, ms",
+  rateOverTime: "Cadenza della telemetria, Hz",
+  unknown: "–",
+  verdicts: {
+    asking: ["In attesa", "Si interroga il collegamento."],
+    offline: ["Nessun collegamento", "Non arriva telemetria. Controllare il cavo USB e l’alimentazione della scheda; il riquadro del robot dice che cosa manca."],
+    interrupted: ["Interrotto", "Negli ultimi minuti il collegamento è caduto ed è stato riaperto. Controllare che le due spine del cavo USB siano ben salde."],
+    damaged: ["Trame danneggiate", "Controllare il cavo USB e la sua schermatura, e allontanarlo dai cavi dei motori."],
+    slow: ["Lento", "Risposte o misure arrivano tardi o per niente. Il computer è occupato, o il cavo passa per un hub?"],
+    good: ["Buono", "Le risposte arrivano subito e nulla è danneggiato."],
+  },
+};

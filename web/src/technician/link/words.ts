@@ -1,0 +1,1 @@
+export { link as say } from "../language/spoken";
