@@ -34,7 +34,7 @@ from server.schema.routines import (
     RoutineLook,
     RoutineQuestion,
 )
-from tests.browser import board_scene
+from tests.browser import board_scene, health_scenes
 from tests.browser.scenes import SCENES
 
 Json = Any
@@ -150,6 +150,8 @@ def _checks() -> AccuracyCheckPage:
 
 def answer(path: str) -> Json:
     """What the server would say to a GET; None where nothing is published."""
+    if path in health_scenes.NEXT:
+        return health_scenes.NEXT[path](_example(path))
     if path == "calibrations/checks":
         return _checks().model_dump(mode="json")
     if path == "calibrations":
@@ -282,7 +284,7 @@ def open_panel(page: Page, title: str) -> None:
     panel.evaluate("panel => { panel.open = true; }")
 
 
-PANELS = ("calibration", "target", "console", "camera", "configuration", "diagnostics")
+PANELS = ("calibration", "target", "link", "console", "camera", "configuration", "diagnostics")
 """The panels in the order of the page."""
 
 
@@ -328,7 +330,11 @@ def updated(page: Page) -> None:
 
 
 def _to_panel(title: str) -> Callable[[Page], None]:
-    return lambda page: open_panel(page, title)
+    def opened(page: Page) -> None:
+        open_panel(page, title)
+        health_scenes.fill_curves(page, title)
+
+    return opened
 
 
 OPENED: Mapping[str, tuple[Live, Callable[[Page], None]]] = {

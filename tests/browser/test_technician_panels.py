@@ -16,6 +16,8 @@ from tests.browser.scenes import SCENES
 from tests.browser.stage import Stage
 
 NARROW_PX = 320
+CURVES = 4 + 2 + 2
+"""Canvases: of the robot, of its link, of its camera."""
 
 
 @contextmanager
@@ -49,6 +51,7 @@ def _open_all(page: Page) -> None:
     page.locator(".calibration :is(.calibration-starts, .calibration-actions)").first.wait_for()
     page.locator(".config-form").wait_for()
     page.locator(".console-frames strong").first.wait_for()
+    expect(page.locator(".curves canvas")).to_have_count(CURVES)
     page.locator(".camera-overlay").wait_for()
     page.locator(".diagnostics-versions").wait_for()
 

@@ -53,8 +53,14 @@ export function HealthFigures({ inspection }: { inspection: CameraInspection | n
   );
 }
 
+interface HealthProps {
+  readonly shown: ReadonlySignal<Shown | null>;
+  /** What was shown last is not true any more. */
+  readonly old: boolean;
+}
+
 /** Whether pictures come often and soon enough, in words and as curves. */
-export function HealthOverTime({ shown }: { shown: ReadonlySignal<Shown | null> }) {
+export function HealthOverTime({ shown, old }: HealthProps) {
   const past = useRef<CameraPast>(noPast(NAMES));
   const data = useComputed(() => {
     const inspection = shown.value?.inspection;
@@ -64,7 +70,7 @@ export function HealthOverTime({ shown }: { shown: ReadonlySignal<Shown | null> 
   const verdict = cameraVerdict(shown.value?.inspection ?? null);
   return (
     <>
-      <Verdict tone={TONES[verdict]} words={say.health.verdicts[verdict]} />
+      {!old && <Verdict tone={TONES[verdict]} words={say.health.verdicts[verdict]} />}
       <Curves charts={chartsNow} data={data} />
     </>
   );

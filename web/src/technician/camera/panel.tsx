@@ -22,11 +22,11 @@ function Camera() {
       <Picture shown={now} old={trouble.value !== null} />
       <TroubleNote trouble={trouble.value} />
       <p class="panel-note camera-note">{now === null ? say.loading : sentenceOf(now.inspection)}</p>
-      <div class="panel-figures">
+      <div class="panel-figures" data-old={trouble.value !== null}>
         <PoseFigures label={now?.inspection.label ?? null} />
         <HealthFigures inspection={now?.inspection ?? null} />
       </div>
-      <HealthOverTime shown={shown} />
+      <HealthOverTime shown={shown} old={trouble.value !== null} />
     </>
   );
 }

@@ -21,6 +21,8 @@ import { say } from "./words";
 /** The board answers a question for its time once a second: more often nothing is new. */
 const PAUSE_MS = 1000;
 
+type Lines = readonly (readonly [name: string, value: string])[];
+
 /** How well the link to the motion board does; nothing is asked before it is opened. */
 export function LinkPanel() {
   return <Panel title={say.title} hint={say.hint} body={Link} />;
@@ -48,21 +50,23 @@ function Link() {
     [],
   );
   const verdict = linkVerdict(report.value, past.current);
+  const now = figuresNow(report.value);
+  const counted = figuresSinceOpened(report.value);
   return (
     <>
       {trouble.value === null && <Verdict tone={LINK_TONES[verdict]} words={say.verdicts[verdict]} />}
       <TroubleNote trouble={trouble.value} />
       <div class="panel-figures" data-old={trouble.value !== null}>
-        <Figures title={say.now} lines={figuresNow(report.value)} />
-        <Figures title={say.sinceOpened} lines={figuresSinceOpened(report.value)} />
+        <Figures title={say.now} lines={now} />
+        <Figures title={say.sinceOpened} lines={counted} />
       </div>
-      <p class="soft">{say.unmeasured}</p>
       <Curves charts={chartsNow} data={data} />
+      {[...now, ...counted].some(([, value]) => value === say.unknown) && <p class="soft panel-foot">{say.unmeasured}</p>}
     </>
   );
 }
 
-function figuresNow(report: LinkReport | null): readonly (readonly [string, string])[] {
+function figuresNow(report: LinkReport | null): Lines {
   const trip = report?.round_trip;
   return [
     [say.rate, shown(report?.telemetry_hz, 1, "Hz")],
@@ -76,7 +80,7 @@ function figuresNow(report: LinkReport | null): readonly (readonly [string, stri
   ];
 }
 
-function figuresSinceOpened(report: LinkReport | null): readonly (readonly [string, string])[] {
+function figuresSinceOpened(report: LinkReport | null): Lines {
   return [
     [say.received, shown(report?.received, 0)],
     [say.damaged, shown(report?.damaged, 0)],
@@ -92,7 +96,7 @@ const shown = (value: number | null | undefined, digits: number, unit = ""): str
 function chartsNow(): readonly Chart[] {
   const x = { unit: "s", range: [-SPAN_S, 0] } as const;
   return [
-    { title: say.times, curves: [say.roundTrip, say.delay], x, span: 10, fromZero: true },
+    { title: say.times, curves: [say.roundTrip, say.late], x, span: 10, fromZero: true },
     { title: say.rateOverTime, curves: [say.rate], x, span: 12, fromZero: true },
   ];
 }

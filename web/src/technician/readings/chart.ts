@@ -16,7 +16,7 @@ export interface Chart {
 }
 
 const HEIGHT_PX = 150;
-const TITLE_PX = 28;
+const TITLE_PX = 20;
 const LEGEND_PX = 30;
 
 /** What a chart takes, so that its place can be kept before it is drawn. */

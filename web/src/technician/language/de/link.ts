@@ -20,6 +20,7 @@ export const link: LinkWords = {
   reconnections: "Neu verbunden seit dem Start",
   unmeasured: "–: wird nicht gemessen, etwa Schäden auf einer simulierten Verbindung.",
   times: "Umlaufzeit und Verzug, ms",
+  late: "Verzug",
   rateOverTime: "Telemetrierate, Hz",
   unknown: "–",
   verdicts: {

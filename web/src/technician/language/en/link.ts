@@ -31,6 +31,7 @@ export const link = {
   reconnections: "Reconnected since the start",
   unmeasured: "–: nobody measures it, such as damage on a simulated link.",
   times: "Round trip and delay, ms",
+  late: "Delay",
   rateOverTime: "Telemetry rate, Hz",
   unknown: "–",
   verdicts,

@@ -20,6 +20,7 @@ export const link: LinkWords = {
   reconnections: "Reconnexions depuis le démarrage",
   unmeasured: "–\u00a0: personne ne le mesure, comme les dégâts sur une liaison simulée.",
   times: "Aller-retour et retard, ms",
+  late: "Retard",
   rateOverTime: "Cadence de télémétrie, Hz",
   unknown: "–",
   verdicts: {

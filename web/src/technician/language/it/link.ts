@@ -20,6 +20,7 @@ export const link: LinkWords = {
   reconnections: "Ricollegamenti dall’avvio",
   unmeasured: "–: nessuno lo misura, come i danni su un collegamento simulato.",
   times: "Andata e ritorno e ritardo, ms",
+  late: "Ritardo",
   rateOverTime: "Cadenza della telemetria, Hz",
   unknown: "–",
   verdicts: {
