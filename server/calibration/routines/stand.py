@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from server.calibration.routines.errors import LabelLostError
 from server.calibration.routines.robot_memory import RobotMemory
 from server.calibration.versions.values import ValuesInForce
 from server.config.settings import Settings
-from server.control.errors import MotionOutOfReachError, RobotOfflineError
+from server.control.errors import ActuatorOverloadError, MotionOutOfReachError, RobotOfflineError
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
 from server.localisation.errors import ImplausiblePlaceError
@@ -222,23 +223,26 @@ class Stand:
         """Look from where a label may be seen, one place after the other."""
         planner = LookPlanner(
             self.supervisor.geometry,
-            self.eye.mount,
-            self.eye.optics,
+            self.supervisor.built,
+            self.eye.known,
             self.vehicle,
-            insertion_depth_mm=self.settings.insertion.depth_mm,
-            approach_mm=self.settings.insertion.pre_insertion_distance_mm,
+            self.settings.insertion,
         )
         x_mm, y_mm = self.platform_mm.tolist()
-        places = 0
-        for place in planner.looks(x_mm, y_mm, self.supervisor.geometry.rho3.min_mm):
-            await self.go(np.array([place.x_mm, place.y_mm]))
-            places += 1
+        pictures = 1
+        places = planner.further_looks(x_mm, y_mm, self.supervisor.geometry.rho3.min_mm)
+        while (place := await asyncio.to_thread(next, places, None)) is not None:
+            try:
+                await self.go(np.array([place.x_mm, place.y_mm]))
+            except (MotionOutOfReachError, ActuatorOverloadError):
+                continue
+            pictures += 1
             look = await self.look()
             if look is not None:
                 return look
         refusal = self.eye.refusal
         raise LabelLostError(
-            f"The label of {self.vehicle.name} is in none of {places} pictures."
+            f"The label of {self.vehicle.name} is in none of {pictures} pictures."
             + (f" {refusal.detail}" if refusal is not None else ""),
-            looks=places,
+            looks=pictures,
         )
