@@ -62,6 +62,11 @@ def served_places(geometry: RobotGeometry, around_mm: Places, step_mm: float) ->
 def standing_places(geometry: RobotGeometry, built: BuiltRobot, step_mm: float) -> Places:
     """Where the built platform can stand, with room at the ends of the rails."""
     places = _around(geometry, reachable_region(geometry).extent, step_mm)
+    return places[can_stand(geometry, built, places)]
+
+
+def can_stand(geometry: RobotGeometry, built: BuiltRobot, places: Places) -> NDArray[np.bool_]:
+    """Whether the built platform can stand there, with room at the rails' ends, shape (n,)."""
     rho = alpha.inverse_many(geometry, places)
     joints = np.column_stack((rho, np.full(len(rho), geometry.rho3.min_mm)))
     limits = singularity.thresholds(singularity.SingularityLimits())
@@ -72,7 +77,7 @@ def standing_places(geometry: RobotGeometry, built: BuiltRobot, step_mm: float) 
     for mechanism in (joints, board):
         carriages = mechanism[:, :2]
         stands &= np.all((carriages > low) & (carriages < high), axis=1)  # NaN compares false
-    return places[stands]
+    return np.asarray(stands)
 
 
 def beyond_regular_box_mm(geometry: RobotGeometry, places: Places) -> NDArray[np.float64]:

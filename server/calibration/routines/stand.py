@@ -24,6 +24,7 @@ from server.control.supervisor import Supervisor
 from server.localisation.errors import ImplausiblePlaceError
 from server.localisation.eye import Eye
 from server.localisation.looks import LookPlanner
+from server.localisation.platform_places import can_stand
 from server.schema.calibrations import RobotEvidence
 from server.schema.vehicles import Vehicle
 from server.vision import AmbiguousLabelError, LabelPose, PoseRejectedError
@@ -34,6 +35,7 @@ from twin.kinematics import KinematicsError, PlatformPosition, alpha
 Array = NDArray[np.float64]
 
 FRAMES = 3
+_STEPS_OF_A_WAY = 21
 MEASURED = 1e-3
 """A belt whose scale is known better than that was measured with a rule: looks cannot tell it."""
 
@@ -127,7 +129,7 @@ class Stand:
         return await self._search() if look is None else look
 
     async def centre_label(self, look: LabelLook) -> LabelLook:
-        """The label in the middle of the picture, from there where it is.
+        """The label in the middle of the picture, or as near to it as the robot gets.
 
         Args:
             look: From where the robot stands.
@@ -137,7 +139,7 @@ class Stand:
             ControlError, CameraDownError: as in ``find_label``.
         """
         sideways = self.R_base_camera @ (look.label_mm * np.array([1.0, 1.0, 0.0]))
-        await self.go(self.platform_mm + sideways[:2])
+        await self.go(self._towards(self.platform_mm + sideways[:2]))
         centred = await self.look()
         if centred is None:
             raise LabelLostError("The label was seen, but not from where it should be best seen.")
@@ -218,6 +220,13 @@ class Stand:
         if state is None:
             raise RobotOfflineError("The motion board does not answer.")
         return state
+
+    def _towards(self, place_mm: Array) -> Array:
+        """A place, or the last one on the way to it where the robot can stand, shape (2,) [mm]."""
+        here = self.platform_mm
+        way = np.linspace(place_mm, here, _STEPS_OF_A_WAY)
+        stands = can_stand(self.supervisor.geometry, self.supervisor.built, way)
+        return np.asarray(way[np.argmax(stands)] if stands.any() else here)
 
     async def _search(self) -> LabelLook:
         """Look from where a label may be seen, one place after the other."""

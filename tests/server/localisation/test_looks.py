@@ -110,9 +110,9 @@ def test_every_car_that_stands_well_is_seen_in_one_of_few_looks(
     for seed in range(CARS):
         rng = np.random.default_rng(seed)
         label = park(GEOMETRY, CarParameters(), ContactParameters(), rng).T_base_label
-        seen_in = [number for number, look in enumerate(usual, 1) if sees(look, label)]
-        assert seen_in, f"the label of car {seed} is in none of {len(usual)} looks"
-        needed.append(seen_in[0])
+        first = next((number for number, look in enumerate(usual, 1) if sees(look, label)), None)
+        assert first is not None, f"the label of car {seed} is in none of {len(usual)} looks"
+        needed.append(first)
     if start == PARKED:
         assert np.mean(np.array(needed) == 1) > 0.9, "the parking place is chosen for its view"
         assert np.mean(needed) < 1.15
