@@ -124,8 +124,7 @@ async def running(
             let_follow(devices.followed.follower, supervisor)
         eye = Eye(
             devices.camera,
-            known.optics(settings.camera),
-            known.mount(settings.camera),
+            known.known_camera(settings.camera),
             settings.geometry,
             supervisor.telemetry,
         )
