@@ -145,6 +145,7 @@ class Stage:
                 "guidance",
                 "calibration",
                 "control",
+                "outlook",
             )
             if getattr(self.live, name) != getattr(shown, name)
         }
