@@ -6,6 +6,7 @@ import { Hero } from "@/parts/hero";
 import { LanguagePicker } from "@/parts/language-picker";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
+import { TimeLeft } from "@/parts/time-left";
 import { Clock } from "./clock";
 import { Rest } from "./rest";
 
@@ -16,6 +17,7 @@ export function Kiosk() {
       <header class="kiosk-bar">
         <LinkState />
         <LanguagePicker />
+        <TimeLeft />
         <Clock />
       </header>
       <main class="kiosk-page">

@@ -7,6 +7,7 @@ import "@/style/page.css";
 import "@/style/controls.css";
 import "@/style/cards.css";
 import "@/style/picture.css";
+import "@/style/time-left.css";
 import "@/access/access.css";
 import "./kiosk.css";
 import { Kiosk } from "./app";
