@@ -25,6 +25,7 @@ from server.localisation.errors import ImplausiblePlaceError
 from server.localisation.eye import Eye
 from server.localisation.looks import LookPlanner
 from server.localisation.platform_places import can_stand
+from server.localisation.telling import most_telling
 from server.schema.calibrations import RobotEvidence
 from server.schema.vehicles import Vehicle
 from server.vision import AmbiguousLabelError, LabelPose, PoseRejectedError
@@ -238,20 +239,20 @@ class Stand:
             self.settings.insertion,
         )
         x_mm, y_mm = self.platform_mm.tolist()
-        pictures = 1
+        refusals = [self.eye.refusal]
         places = planner.further_looks(x_mm, y_mm, self.supervisor.geometry.rho3.min_mm)
         while (place := await asyncio.to_thread(next, places, None)) is not None:
             try:
                 await self.go(np.array([place.x_mm, place.y_mm]))
             except (MotionOutOfReachError, ActuatorOverloadError):
                 continue
-            pictures += 1
             look = await self.look()
             if look is not None:
                 return look
-        refusal = self.eye.refusal
+            refusals.append(self.eye.refusal)
+        refusal = most_telling(refusals) or refusals[0]
         raise LabelLostError(
-            f"The label of {self.vehicle.name} is in none of {pictures} pictures."
+            f"The label of {self.vehicle.name} is in none of {len(refusals)} pictures."
             + (f" {refusal.detail}" if refusal is not None else ""),
-            looks=pictures,
+            looks=len(refusals),
         )

@@ -16,8 +16,9 @@ from server.localisation.errors import LabelNotFoundError
 from server.localisation.eye import Refusal
 from server.localisation.looks import Look, LookPlanner
 from server.localisation.socket_pose import SocketPose
+from server.localisation.telling import most_telling
 from server.schema.vehicles import Vehicle
-from server.vision.errors import NoCodeError, WrongPayloadError
+from server.vision.errors import WrongPayloadError
 from twin.joints import JointPosition, TipPosition
 from twin.kinematics import gamma
 
@@ -91,10 +92,7 @@ async def _search(job: JobContext) -> SocketPose:
 
 def _what_was_there(refusals: Sequence[Refusal | None], vehicle: Vehicle) -> str:
     """What the most telling picture showed instead; "" when all showed nothing."""
-    telling = [refusal for refusal in refusals if type(refusal) not in {type(None), NoCodeError}]
-    if not telling:
-        return ""
-    refusal = telling[0]
+    refusal = most_telling(refusals)
     if isinstance(refusal, WrongPayloadError):
         return why_not_the_label(refusal.context["found"], vehicle.label_payload)
     return "" if refusal is None else refusal.detail

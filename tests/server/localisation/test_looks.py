@@ -198,6 +198,7 @@ def test_the_less_is_in_doubt_the_fewer_looks_are_needed() -> None:
         len(looks_from(PARKED, doubt)) for doubt in (NO_DOUBT, CALIBRATED, DRAWN)
     )
     assert exact <= calibrated < drawn <= 18
+    assert CALIBRATED.mount_mm == DRAWN.mount_mm, "no motion tells where the camera sits"
 
 
 def test_a_built_robot_is_sent_only_where_it_can_stand() -> None:
