@@ -30,6 +30,7 @@ from server.control_trail import note_control
 from server.divergence import DivergenceWatcher
 from server.guidance.guide import Guide
 from server.integrations import Integrations
+from server.jobs.outlook.watch import OutlookWatch
 from server.jobs.runner import JobRunner
 from server.labels.key_file import load_label_key
 from server.labels.payload import LabelKey
@@ -89,9 +90,7 @@ async def running(
         ConfigurationError: a driver does not exist.
         StorageError: the data folder or the database cannot be used.
     """
-    # One thread: on a Raspberry Pi the other cores belong to the robot, the pages and the twin.
-    cv2.setNumThreads(1)
-    threadpool_limits(1, "blas")
+    _compute_in_one_thread()
     speed = settings.clock_speed
     calendar = Calendar(speed)
     devices = devices or _devices(settings, folder)
@@ -120,12 +119,10 @@ async def running(
             ),
             built=BuiltRobot.of(settings.geometry, known.mechanism, known.force_scale),
         )
-        if devices.followed is not None:
-            let_follow(devices.followed.follower, supervisor)
+        let_follow(devices, supervisor)
         eye = Eye(
             devices.camera,
-            known.optics(settings.camera),
-            known.mount(settings.camera),
+            known.known_camera(settings.camera),
             settings.geometry,
             supervisor.telemetry,
         )
@@ -138,6 +135,9 @@ async def running(
             settings=settings,
             calendar=calendar,
             as_taught=calibrations.as_taught,
+        )
+        outlook = OutlookWatch(
+            runner=runner, supervisor=supervisor, jobs=jobs, settings=settings, calendar=calendar
         )
         measuring = Measuring.of(
             database,
@@ -172,6 +172,7 @@ async def running(
         def station_read() -> None:
             recorder.station_changed()
             charge_point.station_read()
+            outlook.station_read(station.snapshot if station.online else None)
             live.changed("station")
 
         station = StationWatch(devices.station, STATION_PERIOD_S * speed, station_read)
@@ -217,6 +218,7 @@ async def running(
                 supervisor, jog, calendar, hold_s=HOLD_S * speed, answer_s=ANSWER_S * speed
             ),
             runner=runner,
+            outlook=outlook,
             station=station,
             camera=camera,
             live=live,
@@ -242,6 +244,12 @@ async def running(
         integrations.tell_events(services)
         await _start(services, stack, wait_for_robot=wait_for_robot)
         yield services
+
+
+def _compute_in_one_thread() -> None:
+    """On a Raspberry Pi the other cores belong to the robot, the pages and the twin."""
+    cv2.setNumThreads(1)
+    threadpool_limits(1, "blas")
 
 
 async def _opened(
@@ -280,6 +288,7 @@ async def _start(
     stack.push_async_callback(services.supervisor.close)
     await services.measuring.start()
     stack.push_async_callback(services.measuring.close)
+    await services.outlook.start()
     await services.runner.start()
     stack.push_async_callback(services.runner.close)
     await services.station.start()

@@ -43,6 +43,8 @@ def show(services: Services) -> None:
     services.routines.listen(lambda: live.changed("calibration"))
     services.self_calibration.listen(lambda: live.changed("calibration"))
     services.divergence.listen(lambda _: live.changed("twin", urgent=True))
+    live.add("outlook", services.outlook.shown)
+    services.outlook.listen(lambda: live.changed("outlook"))
 
     shown: list[object] = [None]
 

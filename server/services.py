@@ -20,6 +20,7 @@ from server.control.supervisor import Supervisor
 from server.divergence import DivergenceWatcher
 from server.events import EventLog
 from server.guidance.guide import Guide
+from server.jobs.outlook.watch import OutlookWatch
 from server.jobs.runner import JobRunner
 from server.live.camera_feed import CameraFeed
 from server.live.hub import LiveHub
@@ -55,6 +56,7 @@ class Services:
         jog: Moves one axis for a person.
         seat: Which person is in control.
         runner: Runs jobs.
+        outlook: When the running job reaches what people wait for.
         station: Newest reading of the charging station.
         camera: Pictures for people.
         live: Pushes what changes.
@@ -88,6 +90,7 @@ class Services:
     jog: Jog
     seat: ControlSeat
     runner: JobRunner
+    outlook: OutlookWatch
     station: StationWatch
     camera: CameraFeed
     live: LiveHub

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from drivers.registry import SIMULATOR, Devices
 from drivers.simulator.camera.camera import SimulatedCamera
-from drivers.simulator.following import RobotFollower
 from drivers.simulator.world import SimulatedWorld
 from server.config.settings import Settings
 from server.control.supervisor import Supervisor
@@ -54,8 +53,11 @@ def simulated_hand(devices: Devices) -> SimulatedHand | None:
     return SimulatedHand(devices.camera, devices.world.parameters.imaging)
 
 
-def let_follow(follower: RobotFollower, supervisor: Supervisor) -> None:
-    """Let the simulated surroundings of a real robot know where it stands."""
+def let_follow(devices: Devices, supervisor: Supervisor) -> None:
+    """Let the simulated surroundings of a real robot know where it stands, if there are any."""
+    if devices.followed is None:
+        return
+    follower = devices.followed.follower
 
     def pass_on() -> None:
         state = supervisor.board_state

@@ -195,6 +195,11 @@ class Calendar:
         self._speed = 1.0 if self._virtual else speed
         self._origin = datetime.now(UTC) - timedelta(seconds=self._loop.time() / self._speed)
 
+    @property
+    def speed(self) -> float:
+        """Seconds of the loop per second of the dates."""
+        return self._speed
+
     def now(self) -> datetime:
         """The date now."""
         return self.at(self._loop.time())

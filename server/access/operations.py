@@ -60,6 +60,7 @@ OPERATIONS: Mapping[str, Need] = {
     "resumeJob": Need.OPERATE,
     "finishJob": Need.OPERATE,
     "listJobEvents": Need.READ,
+    "getOutlook": Need.READ,
     "getJobRecording": Need.READ,
     "getJobPlayback": Need.READ,
     "getJobPlaybackFile": Need.READ,

@@ -141,8 +141,9 @@ def _add_examples(operation: Document) -> None:
 
 
 def _model(content: Document) -> str:
-    reference: str = content.get("schema", {}).get("$ref", "")
-    return reference.rpartition("/")[2]
+    schema = content.get("schema", {})
+    named = [each["$ref"] for each in (schema, *schema.get("anyOf", [])) if "$ref" in each]
+    return str(named[0]).rpartition("/")[2] if named else ""
 
 
 def _add_webhooks(document: Document) -> None:

@@ -122,6 +122,7 @@ MODELS: dict[str, Json] = {
         "next_cursor": None,
         "complete": True,
     },
+    "Outlook": {"milestone": "charged", "at": "2026-03-01T20:14:00Z", "latest": False},
     "Guidance": {
         "state": "move",
         "since": "2026-03-01T18:04:03.400Z",

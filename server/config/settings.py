@@ -16,6 +16,7 @@ from server.config.insertion import InsertionSettings
 from server.config.jobs import JobSettings
 from server.config.logs import LoggingSettings
 from server.config.park import ParkSettings
+from server.config.phase_times import PhaseTimeSettings
 from server.config.push import PushSettings
 from server.config.recordings import RecordingSettings
 from server.config.robot import RobotSettings
@@ -67,6 +68,7 @@ class Settings(BaseSettings):
     park: ParkSettings = ParkSettings()
     guidance: GuidanceSettings = GuidanceSettings()
     jobs: JobSettings = JobSettings()
+    phase_times: PhaseTimeSettings = PhaseTimeSettings()
     recordings: RecordingSettings = RecordingSettings()
     tariff: TariffSettings = TariffSettings()
     charge_point: ChargePointSettings = ChargePointSettings()

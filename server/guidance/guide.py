@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivers.camera import CameraDriver, CameraError, CameraModel, Frame
+from drivers.camera import CameraDriver, CameraError, Frame
 from server.config.settings import Settings
 from server.control.supervisor import Supervisor
 from server.guidance.advice import Advice, Adviser
@@ -25,10 +25,10 @@ from server.guidance.sight import Expected, LabelSight
 from server.guidance.track import CarTrack
 from server.guidance.vanishing import Vanishing
 from server.localisation.frames import Pose, base_from_camera, inverse
+from server.localisation.known_camera import KnownCamera
 from server.schema.vehicles import Vehicle
 from server.storage.vehicles import VehicleStore
 from server.vision.errors import VisionError
-from twin.camera_mount import CameraMount
 from twin.joints import JointPosition
 
 _log = logging.getLogger(__name__)
@@ -89,7 +89,7 @@ class Guide:
         self._settings = settings.guidance
         self._watched = watched
         self._speed = speed
-        self.recalibrate(settings.camera.optics, settings.camera.mount)
+        self.recalibrate(KnownCamera.configured(settings.camera))
         self._adviser = self._new_adviser()
         self._track: CarTrack | None = None
         self._still_since_s: float | None = None
@@ -100,11 +100,11 @@ class Guide:
         self._listeners: list[Callable[[], None]] = []
         self._task: asyncio.Task[None] | None = None
 
-    def recalibrate(self, optics: CameraModel, mount: CameraMount) -> None:
+    def recalibrate(self, known: KnownCamera) -> None:
         """From now on the camera is like this."""
-        self._mount = mount
-        self._sight = LabelSight(optics, self._all.geometry)
-        self._vanishing = Vanishing(optics, self._all.geometry)
+        self._mount = known.mount
+        self._sight = LabelSight(known.optics, self._all.geometry)
+        self._vanishing = Vanishing(known.optics, self._all.geometry)
 
     async def start(self) -> None:
         """Begin to look whenever somebody watches."""

@@ -50,11 +50,12 @@ class Journal:
 
     async def begin(self, phase: JobPhase, message: str) -> None:
         """Enter a phase. Returns when that is on disk, so do it before the first motion."""
-        now = self._calendar.now()
+        now, speed = self._calendar.now(), self._calendar.speed
         await self._record(
             "phase_started",
             message,
-            {},
+            # What the dates of a simulated garage say of the robot's time depends on it.
+            {} if speed == 1.0 else {"clock_speed": speed},
             phase=phase,
             state=JobState.RUNNING,
             phase_started_at=now,

@@ -54,6 +54,14 @@ class JobPhase(StrEnum):
     PARKING = "parking"
 
 
+class Milestone(StrEnum):
+    """What somebody who watches a job waits for."""
+
+    PLUGGED = "plugged"  # the plug is seated
+    CHARGED = "charged"  # the charging is over
+    UNPLUGGED = "unplugged"  # the robot is parked, and the car may drive
+
+
 class PersonChoice(StrEnum):
     """What a person may answer to a job that asks."""
 

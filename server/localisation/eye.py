@@ -11,6 +11,7 @@ from server.control.board import MOVING
 from server.control.telemetry import Telemetry
 from server.localisation.errors import CameraDownError, ImplausiblePlaceError
 from server.localisation.frames import Pose, base_from_camera, inverse
+from server.localisation.known_camera import KnownCamera
 from server.localisation.label_size import LabelSizeCheck, SizeEstimate
 from server.localisation.plausible_place import require_plausible_place
 from server.localisation.socket_pose import SocketPose, socket_from_label
@@ -40,8 +41,7 @@ class Eye:
 
     Args:
         camera: Gives pictures.
-        optics: Its calibrated model.
-        mount: Where it sits on the platform.
+        known: What it is like and where it sits.
         geometry: Calibrated geometry of the robot.
         telemetry: Where the robot was when a picture was taken.
     """
@@ -49,25 +49,33 @@ class Eye:
     def __init__(
         self,
         camera: CameraDriver,
-        optics: CameraModel,
-        mount: CameraMount,
+        known: KnownCamera,
         geometry: RobotGeometry,
         telemetry: Telemetry,
     ) -> None:
-        self.optics = optics
-        self.mount = mount
+        self.known = known
         self._camera = camera
         self._geometry = geometry
         self._telemetry = telemetry
-        self._locator = Locator(optics)
+        self._locator = Locator(known.optics)
         self._listeners: list[OnSighting] = []
         self._size = LabelSizeCheck()
         self._refusal: Refusal | None = None
 
-    def recalibrate(self, optics: CameraModel, mount: CameraMount) -> None:
+    @property
+    def optics(self) -> CameraModel:
+        """The camera's calibrated model."""
+        return self.known.optics
+
+    @property
+    def mount(self) -> CameraMount:
+        """Where it sits on the platform."""
+        return self.known.mount
+
+    def recalibrate(self, known: KnownCamera) -> None:
         """From now on the camera is like this. What the looks said of the label is forgotten."""
-        self.optics, self.mount = optics, mount
-        self._locator = Locator(optics)
+        self.known = known
+        self._locator = Locator(known.optics)
         self._size = LabelSizeCheck()
 
     def listen(self, listener: OnSighting) -> None:

@@ -1,180 +1,207 @@
 """Where to look for a label that is not in the picture: as few looks as its footprint allows.
 
-Every place where the label may be is a point of a grid over the regular box. A look is a platform
-position; it sees the points whose whole label falls into the picture and is not hidden behind the
-robot's own plug. Looks are taken greedily by points newly seen per second of travel.
+First everything where a car should stand is looked at, with the camera taken as it is known. Most
+often that ends the search. Then follows every place from which the plug could serve a socket, with
+all that the camera may be and the car may stand askew; near the regular box first. Looks are taken
+greedily by what they newly show per second of travel.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drivers.camera import CameraModel
-from server.localisation.frames import Pose, label_from_socket
+from server.config.camera import NO_DOUBT
+from server.config.insertion import InsertionSettings
+from server.control.built_robot import BuiltRobot
+from server.localisation.known_camera import KnownCamera
+from server.localisation.picture_window import PictureWindow
+from server.localisation.platform_places import (
+    beyond_regular_box_mm,
+    grid,
+    regular_places,
+    served_places,
+    standing_places,
+)
 from server.schema.vehicles import Vehicle
-from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
-from twin.kinematics import gamma
 
-LABEL_STEP_MM = 10.0
-LOOK_STEP_MM = 20.0
-LOOK_MARGIN_MM = 80.0
-"""How far outside the regular box the platform may go to see more."""
-MARGIN = 1.16
-"""A 25-module code with the two modules around it that the reader needs, over the code alone."""
-IMAGE_MARGIN_PX = 12.0
+PLACE_STEP_MM = 10.0
+USUAL_STEP_MM, WIDE_STEP_MM = 10.0, 20.0
+"""Between the places of the platform to choose from, in the first and in the second part."""
 SECONDS_PER_LOOK = 0.4
 TRAVEL_MM_S = 60.0
+RARE_BEYOND_MM = 30.0
+"""So far beyond the regular box cars stand e times more rarely."""
 
 Points = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """A platform position to look from, and the share of possible labels it adds."""
+    """A platform position to look from.
+
+    Attributes:
+        x_mm: Of V.
+        y_mm: Of V.
+        share: Of the labels that may be, which it newly shows.
+        wide: It belongs to the second part of the search.
+    """
 
     x_mm: float
     y_mm: float
     share: float
+    wide: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Search:
+    """One part of the search.
+
+    Attributes:
+        window: What a look shows.
+        places: Where V would stand to plug in, shape (n, 2) [mm].
+        weights: How likely each is, shape (n,); they add up to 1.
+        step_mm: Between the places to look from.
+    """
+
+    window: PictureWindow
+    places: Points
+    weights: Points
+    step_mm: float
 
 
 class LookPlanner:
     """Plans looks for one robot and one vehicle.
 
     Args:
-        geometry: Of the robot.
-        mount: Of the camera.
-        optics: Of the camera.
+        geometry: Of the robot as drawn.
+        built: Where it can stand as built.
+        camera: As far as known.
         vehicle: Gives the label's size and its place beside the socket.
-        insertion_depth_mm: The slide must still reach this far behind the socket's face.
-        approach_mm: And start this far before it.
+        insertion: The way of the slide before and behind the socket's face, and how askew a car
+            may stand.
     """
 
     def __init__(
         self,
         geometry: RobotGeometry,
-        mount: CameraMount,
-        optics: CameraModel,
+        built: BuiltRobot,
+        camera: KnownCamera,
         vehicle: Vehicle,
-        *,
-        insertion_depth_mm: float,
-        approach_mm: float,
+        insertion: InsertionSettings,
     ) -> None:
         self._geometry = geometry
-        self._mount = mount
-        self._optics = optics
-        self._half_label_mm = 0.5 * MARGIN * vehicle.label_size_mm
-        face_rho3_mm = 0.5 * (
-            geometry.rho3.min_mm + approach_mm + geometry.rho3.max_mm - insertion_depth_mm
-        )
-        self._labels = self._possible_labels(vehicle, face_rho3_mm)
-        self._candidates = self._reachable_platforms()
+        self._built = built
+        self._camera = camera
+        self._vehicle = vehicle
+        self._insertion = insertion
 
-    def looks(self, x_mm: float, y_mm: float, rho3_mm: float) -> Iterator[Look]:
-        """Looks in the order to take them, beginning where the platform stands.
+    def further_looks(self, x_mm: float, y_mm: float, rho3_mm: float) -> Iterator[Look]:
+        """Looks in the order to take them, once one from where the platform stands showed nothing.
 
         Args:
             x_mm: Of the platform now.
             y_mm: Of the platform now.
             rho3_mm: Of the slide, which decides how much the plug hides.
         """
-        here = np.array([x_mm, y_mm])
-        unseen = np.ones(len(self._labels), dtype=bool)
-        seen_from = np.array([self._sees(place, rho3_mm) for place in self._candidates])
-        look, seen = here, self._sees(here, rho3_mm)
-        while True:
-            yield Look(float(look[0]), float(look[1]), float((seen & unseen).mean()))
-            unseen &= ~seen
-            gains = (seen_from & unseen).sum(axis=1)
-            if not gains.any():
-                return
-            travel_s = np.linalg.norm(self._candidates - look, axis=1) / TRAVEL_MM_S
-            best = int(np.argmax(gains / (SECONDS_PER_LOOK + travel_s)))
-            look, seen = self._candidates[best], seen_from[best]
+        taken = [np.array([x_mm, y_mm])]
+        yield from self._looks(self._usual(rho3_mm), taken, wide=False)
+        yield from self._looks(self._wide(rho3_mm), taken, wide=True)
 
-    def _possible_labels(self, vehicle: Vehicle, face_rho3_mm: float) -> Points:
-        """Label centres in the base frame for every socket in the regular box, shape (n, 3)."""
-        box, axis = self._geometry.regular_box, self._geometry.insertion_axis
-        xs = _steps(box.center_x_mm, box.width_mm / 2, LABEL_STEP_MM)
-        ys = _steps(box.center_y_mm, box.height_mm / 2, LABEL_STEP_MM)
-        T_label_socket = label_from_socket(vehicle.socket)
-        # Seen by the robot: the label's z is the insertion axis, its x runs against the rail.
-        z_axis = np.array(axis)
-        x_axis = np.array([-1.0, 0.0, 0.0])
-        R_base_label = np.column_stack([x_axis, np.cross(z_axis, x_axis), z_axis])
-        from_socket = R_base_label @ -(T_label_socket[:3, :3].T @ T_label_socket[:3, 3])
-        places = np.array([[x, y, 0.0] for x in xs for y in ys])
-        return places + _tip(self._geometry, 0.0, 0.0, face_rho3_mm) + from_socket
-
-    def _reachable_platforms(self) -> Points:
-        """Platform positions to choose from, shape (n, 2)."""
-        box = self._geometry.regular_box
-        xs = _steps(box.center_x_mm, box.width_mm / 2 + LOOK_MARGIN_MM, LOOK_STEP_MM)
-        ys = _steps(box.center_y_mm, box.height_mm / 2 + LOOK_MARGIN_MM, LOOK_STEP_MM)
-        places = np.array([[x, y] for x in xs for y in ys])
-        slide_mm = self._geometry.rho3.min_mm
-        tips = np.array([_tip(self._geometry, x, y, slide_mm) for x, y in places])
-        joints = gamma.inverse_many(self._geometry, tips)
-        return places[gamma.within_limits_many(self._geometry, joints)]
-
-    def _sees(self, platform: Points, rho3_mm: float) -> NDArray[np.bool_]:
-        """Which possible labels are wholly in the picture and not behind the plug, shape (n,)."""
-        T_base_camera = self._mount.T_platform_camera
-        T_base_camera[:2, 3] += platform
-        to_label = self._labels - T_base_camera[:3, 3]
-        h = self._half_label_mm
-        corners = np.array([[-h, -h, 0.0], [h, -h, 0.0], [h, h, 0.0], [-h, h, 0.0]])
-        # Corners square to the picture: the tilt of a parked car moves them by under a margin.
-        rays = (to_label @ T_base_camera[:3, :3])[:, None, :] + corners
-        u = self._optics.fx * rays[..., 0] / rays[..., 2] + self._optics.cx
-        v = self._optics.fy * rays[..., 1] / rays[..., 2] + self._optics.cy
-        inside = (
-            (rays[..., 2] > 0)
-            & (u > IMAGE_MARGIN_PX)
-            & (u < self._optics.width - 1 - IMAGE_MARGIN_PX)
-            & (v > IMAGE_MARGIN_PX)
-            & (v < self._optics.height - 1 - IMAGE_MARGIN_PX)
+    def _looks(self, search: _Search, taken: list[Points], *, wide: bool) -> list[Look]:
+        """What this part of the search still needs; it is added to the places ``taken``."""
+        candidates = standing_places(self._geometry, self._built, search.step_mm)
+        if not len(candidates):
+            return []
+        shown_from = _shown_from_all(search, candidates)
+        shown = np.any([search.window.shows(search.places - place) for place in taken], axis=0)
+        left = np.where(shown, 0.0, search.weights)
+        needed = _without_superfluous(
+            _greedily(candidates, shown_from, left, taken[-1]), shown_from[:, ~shown]
         )
-        hidden = self._behind_plug(rays, T_base_camera, platform, rho3_mm)
-        return np.asarray((inside & ~hidden).all(axis=1))
+        candidates, shown_from = candidates[needed], shown_from[needed]
+        looks = []
+        for one in _greedily(candidates, shown_from, left, taken[-1]):
+            x_mm, y_mm = candidates[one].tolist()
+            looks.append(Look(x_mm, y_mm, float(shown_from[one] @ left), wide))
+            left = np.where(shown_from[one], 0.0, left)
+            taken.append(candidates[one])
+        return looks
 
-    def _behind_plug(
-        self, rays: Points, T_base_camera: Pose, platform: Points, rho3_mm: float
-    ) -> NDArray[np.bool_]:
-        """Whether the line of sight to a point passes through the plug, shape of ``rays[..., 0]``.
+    def _usual(self, rho3_mm: float) -> _Search:
+        """The regular box, by cars that stand straight and a camera that is as it is known."""
+        middle_mm, half_mm = 0.5 * sum(self._faces_mm), 0.5 * self._geometry.regular_box.depth_mm
+        places = regular_places(self._geometry, PLACE_STEP_MM)
+        window = PictureWindow(
+            self._geometry, replace(self._camera, doubt=NO_DOUBT), self._vehicle,
+            faces_mm=(middle_mm - half_mm, middle_mm + half_mm),
+            tilt_rad=0.0, cell_mm=PLACE_STEP_MM, rho3_mm=rho3_mm,
+        )  # fmt: skip
+        return _Search(window, places, np.full(len(places), 1.0 / len(places)), USUAL_STEP_MM)
 
-        The plug is a cylinder from the platform to the tip. Where the sight line crosses the
-        plane in which camera and plug axis lie nearest, the distance of the two lines decides.
-        """
-        geometry = self._geometry
-        tip = _tip(geometry, platform[0], platform[1], rho3_mm)
-        axis = np.array(geometry.insertion_axis)
-        to_camera = T_base_camera[:3, :3].T
-        tip_c, axis_c = to_camera @ (tip - T_base_camera[:3, 3]), to_camera @ axis
-        length_mm = tip[2] / axis[2]
-        sight = rays / np.linalg.norm(rays, axis=-1, keepdims=True)
-        # Nearest points of the sight line (s along it) and the plug's axis (t back from the tip),
-        # both limited to where the plug really is.
-        along = sight @ axis_c
-        denominator = np.maximum(1.0 - along**2, 1e-9)
-        s = (sight @ tip_c - along * (tip_c @ axis_c)) / denominator
-        t = np.clip(s * along - tip_c @ axis_c, -length_mm, 0.0)
-        nearest = tip_c + t[..., None] * axis_c
-        s = np.clip((nearest * sight).sum(axis=-1), 0.0, None)
-        gap = np.linalg.norm(s[..., None] * sight - nearest, axis=-1)
-        return np.asarray(gap < 0.5 * geometry.plug_diameter_mm)
+    def _wide(self, rho3_mm: float) -> _Search:
+        """Wherever the plug can serve a socket, and the label seems to be then."""
+        window = PictureWindow(
+            self._geometry, self._camera, self._vehicle,
+            faces_mm=self._faces_mm, tilt_rad=math.radians(self._insertion.max_tilt_deg),
+            cell_mm=PLACE_STEP_MM, rho3_mm=rho3_mm,
+        )  # fmt: skip
+        places = served_places(self._geometry, window.seeming_mm, PLACE_STEP_MM)
+        beyond = beyond_regular_box_mm(self._geometry, places)
+        weights = np.exp(-beyond / RARE_BEYOND_MM)
+        return _Search(window, places, weights / weights.sum(), WIDE_STEP_MM)
+
+    @property
+    def _faces_mm(self) -> tuple[float, float]:
+        """The slide reaches the face of a socket that it can serve between these two [mm]."""
+        travel, insertion = self._geometry.rho3, self._insertion
+        return (
+            travel.min_mm + insertion.pre_insertion_distance_mm,
+            travel.max_mm - insertion.depth_mm,
+        )
 
 
-def _steps(center: float, half: float, step: float) -> Points:
-    count = max(1, round(2 * half / step))
-    return np.linspace(center - half, center + half, count + 1)
+def _shown_from_all(search: _Search, candidates: Points) -> NDArray[np.bool_]:
+    """Which places looks show, shape (looks, places): equal ways need one answer."""
+    steps = np.round((search.places[None] - candidates[:, None]) / PLACE_STEP_MM).astype(int)
+    low, high = steps.min(axis=(0, 1)), steps.max(axis=(0, 1))
+    ways = grid(*(np.arange(a, b + 1) for a, b in zip(low, high, strict=True)))
+    shown = search.window.shows(PLACE_STEP_MM * ways).reshape(high - low + 1)
+    return np.asarray(shown[tuple(np.moveaxis(steps - low, -1, 0))])
 
 
-def _tip(geometry: RobotGeometry, x_mm: float, y_mm: float, rho3_mm: float) -> Points:
-    """Plug tip for a platform position, in the base frame, shape (3,)."""
-    dy_mm, z_mm = gamma.tip_offset(geometry, rho3_mm)
-    return np.array([x_mm, y_mm + dy_mm, z_mm])
+def _greedily(
+    candidates: Points, shown_from: NDArray[np.bool_], weights: Points, here: Points
+) -> list[int]:
+    """Looks that show all that can be shown, by what they newly show per second.
+
+    Args:
+        candidates: Places of the platform, shape (looks, 2).
+        shown_from: Which labels they show, shape (looks, labels).
+        weights: How likely each label is; 0 for one that need not be shown, shape (labels,).
+        here: Where the platform stands, shape (2,).
+    """
+    unseen, chosen = weights.copy(), []
+    while (gains := shown_from @ unseen).any():
+        travel_s = np.linalg.norm(candidates - here, axis=1) / TRAVEL_MM_S
+        best = int(np.argmax(gains / (SECONDS_PER_LOOK + travel_s)))
+        chosen.append(best)
+        here = candidates[best]
+        unseen[shown_from[best]] = 0.0
+    return chosen
+
+
+def _without_superfluous(chosen: list[int], shown_from: NDArray[np.bool_]) -> list[int]:
+    """Looks without those all of whose places others show, too, the last ones left out first."""
+    times = shown_from[chosen].sum(axis=0)
+    needed = list(chosen)
+    for one in reversed(chosen):
+        if np.all(times[shown_from[one]] > 1):
+            needed.remove(one)
+            times = times - shown_from[one]
+    return needed

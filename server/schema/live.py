@@ -16,6 +16,7 @@ from server.schema.control import Control
 from server.schema.divergence import TwinReport
 from server.schema.guidance import Guidance
 from server.schema.jobs import Job
+from server.schema.outlook import Outlook
 from server.schema.problem import Problem
 from server.schema.robot import JogStep, Robot
 from server.schema.routines import CalibrationNow
@@ -62,6 +63,7 @@ class Live(Wire):
     queue: Queue = Queue()
     calibration: CalibrationNow = CalibrationNow()
     control: Control = Control()
+    outlook: Outlook | None = Field(default=None, description="Null: nothing can be told")
 
 
 class LiveChanges(Wire):
@@ -76,6 +78,7 @@ class LiveChanges(Wire):
     queue: Queue | None = None
     calibration: CalibrationNow | None = None
     control: Control | None = None
+    outlook: Outlook | None = None
 
 
 class SnapshotMessage(Wire):

@@ -94,6 +94,20 @@ class JobStore:
 
         return await self._database.run(work)
 
+    async def succeeded(self, limit: int) -> list[Job]:
+        """The newest jobs that have done what they were asked for, newest first."""
+
+        def work(session: Session) -> list[Job]:
+            query = (
+                select(JobRow)
+                .where(JobRow.state == JobState.SUCCEEDED.value)
+                .order_by(JobRow.id.desc())
+                .limit(limit)
+            )
+            return [_read(row) for row in session.scalars(query)]
+
+        return await self._database.run(work)
+
     async def events(self, job_id: str) -> list[JobEvent]:
         """The journal of one job, oldest first."""
 

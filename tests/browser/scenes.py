@@ -6,10 +6,11 @@ from datetime import UTC, datetime, timedelta
 from typing import Literal
 
 from server.control.model import PlugState, RobotMode
-from server.jobs.model import JobPhase, JobState, JobType, PersonChoice
+from server.jobs.model import JobPhase, JobState, JobType, Milestone, PersonChoice
 from server.schema.divergence import DivergenceReport, TwinReport
 from server.schema.jobs import Job, JobResult, NeedsPerson
 from server.schema.live import Live, Queue, Service
+from server.schema.outlook import Outlook
 from server.schema.problem import Problem, problem_from
 from server.schema.robot import (
     CommandedMotion,
@@ -134,6 +135,12 @@ def live(
     )
 
 
+def _due(shown: Live, milestone: Milestone, seconds: float, *, latest: bool = False) -> Live:
+    """The same with what can be foretold of its job."""
+    at = NOW + timedelta(seconds=seconds)
+    return shown.model_copy(update={"outlook": Outlook(milestone=milestone, at=at, latest=latest)})
+
+
 def _paused(running: Job) -> Job:
     return running.model_copy(update={"paused": True})
 
@@ -196,14 +203,20 @@ SCENES: dict[str, Live] = {
     "off": live(robot(RobotMode.OFF)),
     "homing": live(robot(RobotMode.HOMING)),
     "locating": live(robot(), job(JobPhase.LOCATING)),
-    "aligning": live(_MOVING, job(JobPhase.ALIGNING)),
-    "inserting": live(
-        robot(RobotMode.MOVING, PlugState.INSERTED, force_n=38.2), job(JobPhase.INSERTING)
+    "aligning": _due(live(_MOVING, job(JobPhase.ALIGNING)), Milestone.PLUGGED, 28),
+    "inserting": _due(
+        live(robot(RobotMode.MOVING, PlugState.INSERTED, force_n=38.2), job(JobPhase.INSERTING)),
+        Milestone.PLUGGED,
+        1,
     ),
     "parted": live(
         robot(RobotMode.MOVING, PlugState.INSERTED, force_n=79.1), job(JobPhase.INSERTING)
     ).model_copy(update={"twin": _PARTED}),
-    "charging": live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
+    "charging": _due(
+        live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
+        Milestone.CHARGED,
+        7800,
+    ),
     "next": _with_next(
         live(_IN, job(JobPhase.CHARGING, seconds=5025), station(10_980, 15_340)),
         JobType.CHARGE,
@@ -211,14 +224,23 @@ SCENES: dict[str, Live] = {
         unplug_by=NOW + timedelta(hours=13),
     ),
     "disk_full": _unsaved(_with_next(live(_IN), JobType.UNPLUG, paused=True)),
-    "charging_priced": live(
-        _IN,
-        job(JobPhase.CHARGING, seconds=5025, result=JobResult(cost=14.37, currency="EUR")),
-        station(10_980, 15_340),
+    "charging_priced": _due(
+        live(
+            _IN,
+            job(JobPhase.CHARGING, seconds=5025, result=JobResult(cost=14.37, currency="EUR")),
+            station(10_980, 15_340),
+        ),
+        Milestone.CHARGED,
+        46_740,
+        latest=True,
     ),
-    "withdrawing": live(
-        robot(RobotMode.MOVING, PlugState.INSERTED),
-        job(JobPhase.WITHDRAWING, JobType.UNPLUG),
+    "withdrawing": _due(
+        live(
+            robot(RobotMode.MOVING, PlugState.INSERTED),
+            job(JobPhase.WITHDRAWING, JobType.UNPLUG),
+        ),
+        Milestone.UNPLUGGED,
+        28,
     ),
     "paused": live(_MOVING_AT_REST, _paused(job(JobPhase.ALIGNING))),
     "needs_person": live(robot(plug=PlugState.FREE), _asking(job(JobPhase.INSERTING))),

@@ -156,6 +156,7 @@ class Stage:
                 "guidance",
                 "calibration",
                 "control",
+                "outlook",
             )
             if getattr(self.live, name) != getattr(shown, name)
         }

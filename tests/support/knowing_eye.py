@@ -42,7 +42,7 @@ class KnowingEye(Eye):
     """
 
     def __init__(self, eye: Eye, world: SimulatedWorld) -> None:
-        super().__init__(eye._camera, eye.optics, eye.mount, eye._geometry, eye._telemetry)
+        super().__init__(eye._camera, eye.known, eye._geometry, eye._telemetry)
         self.error_mm: NDArray[np.float64] = np.zeros(3)
         self._world = world
         self._chance = np.random.default_rng(0)

@@ -52,7 +52,7 @@ const show = (control: Control): void =>
 test("whoever is in control is asked, and answers", async () => {
   show({ ...SEAT(ANNA), ...ASKED(BEN) });
   const alert = await screen.findByText("Ben (technician) asks for control");
-  expect(alert.closest("[role=alert]")?.textContent).toContain("28 s");
+  expect(alert.closest("[role=alert]")?.textContent).toContain("28\u00a0s");
   fireEvent.click(screen.getByRole("button", { name: "Give control" }));
   await waitFor(() => expect(rest.commands).toEqual(["POST /robot/control/answer"]));
   expect(rest.requests.at(-1)?.body).toEqual({ request_id: "r1", give: true });

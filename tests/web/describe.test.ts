@@ -209,7 +209,7 @@ suite("the sentence", () => {
     const after = (seconds: number): Description =>
       said({ robot: robot({ updated_at: at(seconds) }), job: done });
     expect(after(60).headline).toBe("Charging is done");
-    expect(after(60).detail).toContain("21.5 kWh");
+    expect(after(60).detail).toContain("21.5\u00a0kWh");
     expect(after(1801).headline).toBe("Ready to charge");
   });
 

@@ -64,7 +64,7 @@ describe("earlier jobs", () => {
     await openHistory(RECORDED, { ...DONE, id: "b" });
     const link = await screen.findByRole("link", { name: /Download/ });
     expect(link.getAttribute("href")).toBe("/api/v1/jobs/a/recording");
-    expect(link.textContent).toContain("1.5 MB");
+    expect(link.textContent).toContain("1.5\u00a0MB");
     expect(screen.getAllByRole("button", { name: /Watch again/ })).toHaveLength(1);
     expect(screen.getByText("not recorded")).toBeTruthy();
   });
@@ -163,15 +163,15 @@ describe("the cost", () => {
 
   test("stands beside the energy, as the reader's country writes money", async () => {
     const priced = job({ state: "succeeded", result });
-    expect(outcomeOf(priced)).toBe("21.5 kWh for €6.44");
+    expect(outcomeOf(priced)).toBe("21.5\u00a0kWh for €6.44");
     await speak("de");
-    expect(outcomeOf(priced)).toBe("21,5 kWh für 6,44\u00a0€");
+    expect(outcomeOf(priced)).toBe("21,5\u00a0kWh für 6,44\u00a0€");
     await speak("en");
   });
 
   test("is left out where nobody has set a tariff", () => {
     expect(outcomeOf(job({ state: "succeeded", result: { energy_wh: 21_480 } }))).toBe(
-      "21.5 kWh charged",
+      "21.5\u00a0kWh charged",
     );
   });
 });
@@ -207,5 +207,5 @@ describe("robot and model", () => {
 });
 
 test("sizes are short", () => {
-  expect([340_100, 1_518_950].map(formatSize)).toEqual(["341 kB", "1.5 MB"]);
+  expect([340_100, 1_518_950].map(formatSize)).toEqual(["341\u00a0kB", "1.5\u00a0MB"]);
 });

@@ -56,12 +56,17 @@ test("the time of a phase is the server's, not the reader's", () => {
 
 test("figures are short and keep their unit", () => {
   expect([0, 59.9, 60, 187, 3725].map(formatDuration)).toEqual([
-    "0 s",
-    "59 s",
+    "0\u00a0s",
+    "59\u00a0s",
     "1:00",
     "3:07",
-    "1 h 02",
+    "1\u00a0h\u00a002",
   ]);
-  expect([0, 999, 1000, 15_340].map(formatEnergy)).toEqual(["0 Wh", "999 Wh", "1.0 kWh", "15.3 kWh"]);
-  expect(formatPower(10_980)).toBe("11.0 kW");
+  expect([0, 999, 1000, 15_340].map(formatEnergy)).toEqual([
+    "0\u00a0Wh",
+    "999\u00a0Wh",
+    "1.0\u00a0kWh",
+    "15.3\u00a0kWh",
+  ]);
+  expect(formatPower(10_980)).toBe("11.0\u00a0kW");
 });

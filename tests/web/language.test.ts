@@ -107,10 +107,10 @@ describe("the language", () => {
   });
 
   test("writes numbers and dates its own way", async () => {
-    expect(formatEnergy(15_340)).toBe("15.3 kWh");
+    expect(formatEnergy(15_340)).toBe("15.3\u00a0kWh");
     await speak("de");
-    expect(formatEnergy(15_340)).toBe("15,3 kWh");
-    expect(formatSize(1_500_000)).toBe("1,5 MB");
+    expect(formatEnergy(15_340)).toBe("15,3\u00a0kWh");
+    expect(formatSize(1_500_000)).toBe("1,5\u00a0MB");
     expect(formatDate(START)).toMatch(/1\. März/);
     await speak("fr");
     expect(formatDate(START)).toMatch(/1 mars/);

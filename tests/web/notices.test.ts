@@ -7,12 +7,12 @@ const message = (changes: object): string =>
 describe("a notification", () => {
   test("says how much was charged, as the country writes it", () => {
     expect(noticeOf(message({}))).toEqual({
-      title: "The car is charged: 21.5 kWh",
+      title: "The car is charged: 21.5\u00a0kWh",
       body: "The plug is out of the car.",
       lang: "en",
       stays: false,
     });
-    expect(noticeOf(message({ language: "de" })).title).toBe("Das Auto ist geladen: 21,5 kWh");
+    expect(noticeOf(message({ language: "de" })).title).toBe("Das Auto ist geladen: 21,5\u00a0kWh");
   });
 
   test.each(["en", "fr", "de", "it"])("in %s has words for everything", (language) => {

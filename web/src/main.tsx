@@ -8,6 +8,7 @@ import "./style/page.css";
 import "./style/controls.css";
 import "./style/cards.css";
 import "./style/steps.css";
+import "./style/time-left.css";
 import "./style/views.css";
 import "./style/picture.css";
 import "./style/history.css";

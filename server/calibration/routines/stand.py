@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
@@ -17,12 +18,14 @@ from server.calibration.routines.errors import LabelLostError
 from server.calibration.routines.robot_memory import RobotMemory
 from server.calibration.versions.values import ValuesInForce
 from server.config.settings import Settings
-from server.control.errors import MotionOutOfReachError, RobotOfflineError
+from server.control.errors import ActuatorOverloadError, MotionOutOfReachError, RobotOfflineError
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
 from server.localisation.errors import ImplausiblePlaceError
 from server.localisation.eye import Eye
 from server.localisation.looks import LookPlanner
+from server.localisation.platform_places import can_stand
+from server.localisation.telling import most_telling
 from server.schema.calibrations import RobotEvidence
 from server.schema.vehicles import Vehicle
 from server.vision import AmbiguousLabelError, LabelPose, PoseRejectedError
@@ -33,6 +36,7 @@ from twin.kinematics import KinematicsError, PlatformPosition, alpha
 Array = NDArray[np.float64]
 
 FRAMES = 3
+_STEPS_OF_A_WAY = 21
 MEASURED = 1e-3
 """A belt whose scale is known better than that was measured with a rule: looks cannot tell it."""
 
@@ -126,7 +130,7 @@ class Stand:
         return await self._search() if look is None else look
 
     async def centre_label(self, look: LabelLook) -> LabelLook:
-        """The label in the middle of the picture, from there where it is.
+        """The label in the middle of the picture, or as near to it as the robot gets.
 
         Args:
             look: From where the robot stands.
@@ -136,7 +140,7 @@ class Stand:
             ControlError, CameraDownError: as in ``find_label``.
         """
         sideways = self.R_base_camera @ (look.label_mm * np.array([1.0, 1.0, 0.0]))
-        await self.go(self.platform_mm + sideways[:2])
+        await self.go(self._towards(self.platform_mm + sideways[:2]))
         centred = await self.look()
         if centred is None:
             raise LabelLostError("The label was seen, but not from where it should be best seen.")
@@ -218,27 +222,37 @@ class Stand:
             raise RobotOfflineError("The motion board does not answer.")
         return state
 
+    def _towards(self, place_mm: Array) -> Array:
+        """A place, or the last one on the way to it where the robot can stand, shape (2,) [mm]."""
+        here = self.platform_mm
+        way = np.linspace(place_mm, here, _STEPS_OF_A_WAY)
+        stands = can_stand(self.supervisor.geometry, self.supervisor.built, way)
+        return np.asarray(way[np.argmax(stands)] if stands.any() else here)
+
     async def _search(self) -> LabelLook:
         """Look from where a label may be seen, one place after the other."""
         planner = LookPlanner(
             self.supervisor.geometry,
-            self.eye.mount,
-            self.eye.optics,
+            self.supervisor.built,
+            self.eye.known,
             self.vehicle,
-            insertion_depth_mm=self.settings.insertion.depth_mm,
-            approach_mm=self.settings.insertion.pre_insertion_distance_mm,
+            self.settings.insertion,
         )
         x_mm, y_mm = self.platform_mm.tolist()
-        places = 0
-        for place in planner.looks(x_mm, y_mm, self.supervisor.geometry.rho3.min_mm):
-            await self.go(np.array([place.x_mm, place.y_mm]))
-            places += 1
+        refusals = [self.eye.refusal]
+        places = planner.further_looks(x_mm, y_mm, self.supervisor.geometry.rho3.min_mm)
+        while (place := await asyncio.to_thread(next, places, None)) is not None:
+            try:
+                await self.go(np.array([place.x_mm, place.y_mm]))
+            except (MotionOutOfReachError, ActuatorOverloadError):
+                continue
             look = await self.look()
             if look is not None:
                 return look
-        refusal = self.eye.refusal
+            refusals.append(self.eye.refusal)
+        refusal = most_telling(refusals) or refusals[0]
         raise LabelLostError(
-            f"The label of {self.vehicle.name} is in none of {places} pictures."
+            f"The label of {self.vehicle.name} is in none of {len(refusals)} pictures."
             + (f" {refusal.detail}" if refusal is not None else ""),
-            looks=places,
+            looks=len(refusals),
         )

@@ -10,7 +10,6 @@ from typing import Protocol
 from pydantic import TypeAdapter
 from uuid6 import uuid7
 
-from drivers.camera import CameraModel
 from server.calibration.grade import Grade
 from server.calibration.versions.comparing import Comparison, compared_on_looks
 from server.calibration.versions.errors import (
@@ -27,6 +26,7 @@ from server.control.built_robot import BuiltRobot
 from server.control.finishing import finish
 from server.control.lease import Lease
 from server.control.supervisor import Supervisor
+from server.localisation.known_camera import KnownCamera
 from server.schema.calibrations import (
     Calibration,
     CalibrationDetail,
@@ -40,7 +40,6 @@ from server.schema.vehicles import Vehicle
 from server.storage.calibrations import WHOLE_ROBOT, CalibrationStore, StoredCalibration
 from server.storage.database import Database
 from server.timing import Calendar
-from twin.camera_mount import CameraMount
 
 HOLDER = "Calibration"
 
@@ -53,7 +52,7 @@ Key = tuple[CalibrationKind, str]
 class LooksThroughCamera(Protocol):
     """Uses the camera's optics and its place on the robot."""
 
-    def recalibrate(self, optics: CameraModel, mount: CameraMount) -> None:
+    def recalibrate(self, known: KnownCamera) -> None:
         """From now on the camera is like this."""
 
 
@@ -255,9 +254,9 @@ class Calibrations:
         self._tell_onlookers(values)
 
     def _tell_onlookers(self, values: ValuesInForce) -> None:
-        camera = self._settings.camera
+        known = values.known_camera(self._settings.camera)
         for onlooker in self._onlookers:
-            onlooker.recalibrate(values.optics(camera), values.mount(camera))
+            onlooker.recalibrate(known)
 
     def _compared(self, stored: StoredCalibration) -> Comparison:
         values, evidence = _VALUES.validate_python(stored.content), robot_evidence_of(stored)

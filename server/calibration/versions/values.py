@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.config.camera import CameraSettings
+from server.config.camera import CameraDoubt, CameraSettings
+from server.localisation.known_camera import KnownCamera
 from server.schema.calibrations import (
     CalibrationValues,
     CameraValues,
@@ -24,6 +25,10 @@ from server.schema.vehicles import Vehicle
 from server.storage.calibrations import WHOLE_ROBOT
 from twin.as_built import PlanarAsBuilt
 from twin.camera_mount import CameraMount
+
+TURN_LEFT_DEG, PLATFORM_LEFT_MM = 0.5, 1.0
+FOCAL_SHARE_LEFT, CENTRE_LEFT_PX = 0.002, 2.0
+"""What a calibration leaves in doubt, for finding a label: several times what it really leaves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +89,20 @@ class ValuesInForce:
         x, y, z = self.robot.camera_rotation_rad
         turned = {"rotation_x_rad": x, "rotation_y_rad": y, "rotation_z_rad": z}
         return configured.mount.model_copy(update=turned)
+
+    def known_camera(self, configured: CameraSettings) -> KnownCamera:
+        """The camera, and what these calibrations leave in doubt of it."""
+        doubt = configured.doubt
+        if self.robot is not None:
+            doubt = _at_most(doubt, turn_deg=TURN_LEFT_DEG, platform_mm=PLATFORM_LEFT_MM)
+        if self.camera is not None:
+            doubt = _at_most(doubt, focal_share=FOCAL_SHARE_LEFT, centre_px=CENTRE_LEFT_PX)
+        return KnownCamera(self.optics(configured), self.mount(configured), doubt)
+
+
+def _at_most(doubt: CameraDoubt, **left: float) -> CameraDoubt:
+    smaller = {name: min(most, getattr(doubt, name)) for name, most in left.items()}
+    return doubt.model_copy(update=smaller)
 
 
 def subject_of(values: CalibrationValues) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 from collections.abc import Sequence
 
+from server.control.errors import ActuatorOverloadError, MotionOutOfReachError
 from server.jobs.approach import pre_insertion
 from server.jobs.context import JobContext
 from server.jobs.model import JobPhase
@@ -14,13 +16,11 @@ from server.localisation.errors import LabelNotFoundError
 from server.localisation.eye import Refusal
 from server.localisation.looks import Look, LookPlanner
 from server.localisation.socket_pose import SocketPose
+from server.localisation.telling import most_telling
 from server.schema.vehicles import Vehicle
-from server.vision.errors import NoCodeError, WrongPayloadError
+from server.vision.errors import WrongPayloadError
 from twin.joints import JointPosition, TipPosition
 from twin.kinematics import gamma
-
-HERE_MM = 0.5
-"""A look this near needs no motion."""
 
 
 async def run(job: JobContext) -> None:
@@ -56,47 +56,43 @@ async def _search(job: JobContext) -> SocketPose:
         return socket
     refusals = [job.eye.refusal]
     planner = LookPlanner(
-        job.supervisor.geometry,
-        job.eye.mount,
-        job.eye.optics,
-        vehicle,
-        insertion_depth_mm=insertion.depth_mm,
-        approach_mm=insertion.pre_insertion_distance_mm,
+        job.supervisor.geometry, job.supervisor.built, job.eye.known, vehicle, insertion
     )
     joints = job.supervisor.telemetry.require().commanded.position
     here = gamma.platform(job.supervisor.geometry, joints)
-    looks = 1
-    for look in planner.looks(here.x_mm, here.y_mm, joints.rho3_mm):
-        target = _joints_at(job, look)
-        if math.dist((look.x_mm, look.y_mm), here) > HERE_MM:
-            await job.supervisor.move_from_below(job.lease, target)
-            socket = await job.eye.look(vehicle)
-            refusals.append(job.eye.refusal)
-            looks += 1
-            await job.journal.note(
-                "look",
-                "Looked from another place.",
-                x_mm=round(look.x_mm, 1),
-                y_mm=round(look.y_mm, 1),
-                found=socket is not None,
-            )
-            if socket is not None:
-                return socket
+    left_out = 0
+    places = planner.further_looks(here.x_mm, here.y_mm, joints.rho3_mm)
+    # in a thread: what a picture shows of all places takes a small computer its time
+    while (place := await asyncio.to_thread(next, places, None)) is not None:
+        try:
+            await job.supervisor.move_from_below(job.lease, _joints_at(job, place))
+        except (MotionOutOfReachError, ActuatorOverloadError):
+            left_out += 1
+            continue
+        socket = await job.eye.look(vehicle)
+        refusals.append(job.eye.refusal)
+        await job.journal.note(
+            "look",
+            "Looked from another place.",
+            x_mm=round(place.x_mm, 1),
+            y_mm=round(place.y_mm, 1),
+            found=socket is not None,
+        )
+        if socket is not None:
+            return socket
     instead = _what_was_there(refusals, vehicle)
+    together = "" if left_out else " that together show every place where it may be"
     raise LabelNotFoundError(
-        f"The label of {vehicle.name} was in none of {looks} pictures "
-        f"that together show every place where it may be.{' ' if instead else ''}{instead}",
-        looks=looks,
+        f"The label of {vehicle.name} was in none of {len(refusals)} pictures{together}."
+        f"{' ' if instead else ''}{instead}",
+        looks=len(refusals),
         payload=vehicle.label_payload,
     )
 
 
 def _what_was_there(refusals: Sequence[Refusal | None], vehicle: Vehicle) -> str:
     """What the most telling picture showed instead; "" when all showed nothing."""
-    telling = [refusal for refusal in refusals if type(refusal) not in {type(None), NoCodeError}]
-    if not telling:
-        return ""
-    refusal = telling[0]
+    refusal = most_telling(refusals)
     if isinstance(refusal, WrongPayloadError):
         return why_not_the_label(refusal.context["found"], vehicle.label_payload)
     return "" if refusal is None else refusal.detail

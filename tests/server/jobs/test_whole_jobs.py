@@ -7,8 +7,11 @@ import pytest
 from drivers.station import PilotState
 from server.control.model import PlugState
 from server.jobs.model import JobPhase, JobState, JobType
+from server.localisation.platform_places import BEYOND_MM
 from server.schema.jobs import Job
 from tests.support.garage import Scene, on_scene, shift_car
+from twin.joints import TipPosition
+from twin.kinematics import gamma
 
 SLOWER_THAN_THE_LIMIT = 1.25
 
@@ -50,6 +53,22 @@ def test_looks_from_elsewhere_when_the_label_is_out_of_the_first_picture() -> No
         _assert_well_plugged_in(scene, job)
         looks = [event.data["found"] for event in await scene.events(job) if event.kind == "look"]
         assert looks[-1:] == [True]  # two places are as near: either may come first
+
+    on_scene(scenario, seed=1)
+
+
+def test_finds_a_car_that_stands_just_outside_of_its_place() -> None:
+    async def scenario(scene: Scene) -> None:
+        geometry = scene.services.settings.geometry
+        socket = TipPosition(*scene.garage.world.car.T_base_socket[:3, 3].tolist())
+        box, now = geometry.regular_box, gamma.platform_for_tip(geometry, socket)[0]
+        lowest_mm = box.center_y_mm - 0.5 * box.height_mm
+        shift_car(
+            scene.garage, x_mm=box.center_x_mm - now.x_mm, y_mm=lowest_mm - BEYOND_MM - now.y_mm
+        )
+        job = await scene.carried_out(JobType.PLUG_IN)
+        _assert_well_plugged_in(scene, job)
+        assert "look" in await scene.kinds(job)
 
     on_scene(scenario, seed=1)
 

@@ -15,6 +15,7 @@ from drivers.robot import (
     MeasuredJoints,
     RobotState,
 )
+from server.config.camera import NO_DOUBT
 from server.control.telemetry import Telemetry
 from server.localisation.errors import (
     CameraDownError,
@@ -23,6 +24,7 @@ from server.localisation.errors import (
 )
 from server.localisation.eye import Eye
 from server.localisation.frames import Pose, base_from_camera
+from server.localisation.known_camera import KnownCamera
 from server.schema.vehicles import Vehicle
 from server.vision.errors import AmbiguousLabelError, EdgesDoNotFitError, LabelJumpedError
 from tests.server.vision.label_shots import CAMERA, LABEL, SIZE_MM
@@ -100,7 +102,7 @@ def scene() -> Scene:
 
 @pytest.fixture
 def eye(scene: Scene) -> Eye:
-    return Eye(scene, CAMERA, MOUNT, GEOMETRY, scene.telemetry)
+    return Eye(scene, KnownCamera(CAMERA, MOUNT, NO_DOUBT), GEOMETRY, scene.telemetry)
 
 
 async def test_the_label_is_located_and_measured(scene: Scene, eye: Eye) -> None:

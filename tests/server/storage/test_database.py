@@ -125,6 +125,21 @@ def test_a_process_that_is_killed_loses_nothing_that_was_committed(tmp_path: Pat
     assert [j.id for j in unfinished] == [job(1).id]
 
 
+def test_the_newest_jobs_that_succeeded_come_first(tmp_path: Path) -> None:
+    async def scenario() -> None:
+        database = await opened(tmp_path)
+        jobs = JobStore(database)
+        for number, state in enumerate(
+            [JobState.SUCCEEDED, JobState.FAILED, JobState.SUCCEEDED, JobState.SUCCEEDED]
+        ):
+            await jobs.add(job(number, state), key=None, digest=None)
+        found = await jobs.succeeded(2)
+        await database.close()
+        assert [each.id for each in found] == [job(3).id, job(2).id]
+
+    run_virtual(scenario())
+
+
 def test_pages_follow_each_other_without_gap_or_repetition(tmp_path: Path) -> None:
     async def scenario() -> None:
         database = await opened(tmp_path)

@@ -1318,6 +1318,28 @@ export interface paths {
         readonly patch?: never;
         readonly trace?: never;
     };
+    readonly "/api/v1/outlook": {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        /**
+         * Read the time left
+         * @description The running job's next milestone; null when nothing can be told of it.
+         *
+         *     The section `outlook` of the WebSocket is the same, sent again only when it has moved.
+         */
+        readonly get: operations["getOutlook"];
+        readonly put?: never;
+        readonly post?: never;
+        readonly delete?: never;
+        readonly options?: never;
+        readonly head?: never;
+        readonly patch?: never;
+        readonly trace?: never;
+    };
     readonly "/api/v1/push": {
         readonly parameters: {
             readonly query?: never;
@@ -4598,6 +4620,11 @@ export interface components {
             /** @description The running job, else the newest one, else null */
             readonly job: components["schemas"]["Job"] | null;
             /**
+             * @description Null: nothing can be told
+             * @default null
+             */
+            readonly outlook?: components["schemas"]["Outlook"] | null;
+            /**
              * @default {
              *       "waiting": null
              *     }
@@ -4626,6 +4653,8 @@ export interface components {
             readonly guidance?: components["schemas"]["Guidance"] | null;
             /** @default null */
             readonly job?: components["schemas"]["Job"] | null;
+            /** @default null */
+            readonly outlook?: components["schemas"]["Outlook"] | null;
             /** @default null */
             readonly queue?: components["schemas"]["Queue"] | null;
             /** @default null */
@@ -4719,6 +4748,12 @@ export interface components {
             /** @description Null while the robot is not homed */
             readonly tip: components["schemas"]["Tip"] | null;
         };
+        /**
+         * Milestone
+         * @description What somebody who watches a job waits for.
+         * @enum {string}
+         */
+        readonly Milestone: "plugged" | "charged" | "unplugged";
         /**
          * MoveTarget
          * @description The way there, checked along its whole length. Nothing has moved.
@@ -4823,6 +4858,25 @@ export interface components {
              * @enum {string}
              */
             readonly type: "robot.needs_person";
+        };
+        /**
+         * Outlook
+         * @description When the running job reaches its next milestone, as far as that can be told.
+         */
+        readonly Outlook: {
+            /**
+             * At
+             * Format: date-time
+             * @description From this robot's earlier jobs, and from the energy still to come
+             * @example 2026-03-01T18:04:05.120Z
+             */
+            readonly at: string;
+            /**
+             * Latest
+             * @description Then at the latest, because the car is to be unplugged; it may be earlier
+             */
+            readonly latest: boolean;
+            readonly milestone: components["schemas"]["Milestone"];
         };
         /**
          * PairingRequest
@@ -10651,6 +10705,37 @@ export interface operations {
             readonly 404: components["responses"]["Problem404"];
             readonly 409: components["responses"]["Problem409"];
             readonly 422: components["responses"]["Problem422"];
+            readonly 503: components["responses"]["Problem503"];
+            readonly default: components["responses"]["ProblemDefault"];
+        };
+    };
+    readonly getOutlook: {
+        readonly parameters: {
+            readonly query?: never;
+            readonly header?: never;
+            readonly path?: never;
+            readonly cookie?: never;
+        };
+        readonly requestBody?: never;
+        readonly responses: {
+            /** @description Successful Response */
+            readonly 200: {
+                headers: {
+                    readonly [name: string]: unknown;
+                };
+                content: {
+                    /**
+                     * @example {
+                     *       "at": "2026-03-01T20:14:00Z",
+                     *       "latest": false,
+                     *       "milestone": "charged"
+                     *     }
+                     */
+                    readonly "application/json": components["schemas"]["Outlook"] | null;
+                };
+            };
+            readonly 401: components["responses"]["Problem401"];
+            readonly 403: components["responses"]["Problem403"];
             readonly 503: components["responses"]["Problem503"];
             readonly default: components["responses"]["ProblemDefault"];
         };

@@ -7,6 +7,7 @@ import { LanguagePicker } from "@/parts/language-picker";
 import { Notices } from "@/parts/notices";
 import { StationCard } from "@/parts/station-card";
 import { StopBar } from "@/parts/stop-bar";
+import { TimeLeft } from "@/parts/time-left";
 import { TwinAlarm } from "@/parts/twin-alarm";
 import { Clock } from "./clock";
 import { Rest } from "./rest";
@@ -18,6 +19,7 @@ export function Kiosk() {
       <header class="kiosk-bar">
         <LinkState />
         <LanguagePicker />
+        <TimeLeft />
         <Clock />
       </header>
       <main class="kiosk-page">

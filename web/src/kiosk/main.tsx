@@ -8,6 +8,7 @@ import "@/style/controls.css";
 import "@/style/cards.css";
 import "@/style/notices.css";
 import "@/style/picture.css";
+import "@/style/time-left.css";
 import "@/access/access.css";
 import "./kiosk.css";
 import { Kiosk } from "./app";

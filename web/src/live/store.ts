@@ -23,6 +23,7 @@ export function merge(live: Live, changes: DeltaMessage["changes"]): Live {
     queue: changes.queue ?? live.queue ?? {},
     calibration: changes.calibration ?? live.calibration ?? {},
     control: changes.control ?? live.control ?? {},
+    outlook: (changes.outlook === undefined ? live.outlook : changes.outlook) ?? null,
   };
 }
 

@@ -4,14 +4,16 @@ import { store } from "@/live/page";
 import { isActive, phaseElapsedS, stepsOf } from "@/robot/job";
 import type { Step } from "@/robot/job";
 import { words } from "@/words";
+import { TimeLeft } from "./time-left";
 
-/** The steps of the running job. */
+/** How long the running job still takes, and its steps. */
 export function Progress() {
   const job = store.live.value?.job ?? null;
   if (!isActive(job)) return null;
   return (
     <section class="card" data-stale={store.stale.value}>
       <h2>{words.steps.title}</h2>
+      <TimeLeft />
       <ol class="steps">
         {stepsOf(job).map((step) => (
           <StepRow key={step.phase} step={step} />

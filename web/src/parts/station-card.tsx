@@ -5,6 +5,7 @@ import { formatDuration, formatEnergy, formatForce, formatPower } from "@/format
 import { costOf } from "@/jobs/history";
 import { store } from "@/live/page";
 import { isActive, phaseElapsedS } from "@/robot/job";
+import { timeLeft } from "@/robot/outlook";
 import { words } from "@/words";
 
 type Kind = "charging" | "inserting" | "offline" | null;
@@ -17,7 +18,7 @@ function kindOf({ job, robot, station }: Live): Kind {
   return robot.plug === "inserted" && station.power_w > 0 ? "charging" : null;
 }
 
-/** Power, energy and time while charging; the force while plugging in. */
+/** Power, energy and time while charging; force and time while plugging in. */
 export function StationCard() {
   const kind = useComputed(() => (store.live.value === null ? null : kindOf(store.live.value)));
   if (kind.value === null) return null;
@@ -36,8 +37,15 @@ export function StationCard() {
     />
   );
   const running = isActive(store.live.value?.job ?? null);
-  const time = (
-    <Figure label={words.station.elapsed} show={(l) => formatDuration(phaseElapsedS(l))} />
+  const foretold = store.live.value !== null && timeLeft(store.live.value) !== "";
+  const time = foretold ? (
+    <Figure key="left" label={words.station.left} show={timeLeft} />
+  ) : (
+    <Figure
+      key="elapsed"
+      label={words.station.elapsed}
+      show={(l) => formatDuration(phaseElapsedS(l))}
+    />
   );
   const cost = (
     <Figure

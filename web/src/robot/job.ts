@@ -57,8 +57,13 @@ function stepsAhead(job: ActiveJob): readonly JobPhase[] {
  * Seconds since the phase began, by the server's clock alone: the reader's may be wrong, and a
  * simulator's may run faster.
  */
-export function phaseElapsedS({ robot, job }: Live): number {
-  if (job === null) return 0;
-  const nowMs = Math.max(Date.parse(robot.updated_at), Date.parse(job.updated_at));
-  return Math.max(0, (nowMs - Date.parse(job.phase_started_at)) / 1000);
+export function phaseElapsedS(live: Live): number {
+  if (live.job === null) return 0;
+  return Math.max(0, (serverNowMs(live) - Date.parse(live.job.phase_started_at)) / 1000);
+}
+
+/** The newest date that the server has told: it tells one several times a second. */
+export function serverNowMs({ robot, job, station }: Live): number {
+  const told = [robot.updated_at, job?.updated_at, station.updated_at];
+  return Math.max(...told.map((date) => (date == null ? 0 : Date.parse(date))));
 }

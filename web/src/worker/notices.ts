@@ -101,5 +101,5 @@ function parse(text: string): Partial<Message> & Pick<Message, "language" | "det
 
 function energyIn(language: Language, energy_wh: number): string {
   const digits = { minimumFractionDigits: 1, maximumFractionDigits: 1 };
-  return `${new Intl.NumberFormat(language, digits).format(energy_wh / 1000)} kWh`;
+  return `${new Intl.NumberFormat(language, digits).format(energy_wh / 1000)}\u00a0kWh`;
 }

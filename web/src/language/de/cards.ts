@@ -30,12 +30,23 @@ export const cards: CardWords = {
     cancel: "Zurück",
   },
   steps: { title: "Ablauf", done: "erledigt" },
+  outlook: {
+    about: {
+      plugged: (left) => `Eingesteckt in etwa ${left}`,
+      charged: (left) => `Fertig in etwa ${left}`,
+      unplugged: (left) => `Abfahrbereit in etwa ${left}`,
+    },
+    by: (time) => `Fertig bis spätestens ${time}`,
+    full: "Bis das Auto voll ist",
+    soon: "Jeden Moment",
+  },
   station: {
     title: "Ladestation",
     power: "Leistung",
     energy: "Energie",
     force: "Kraft",
     elapsed: "Zeit",
+    left: "Restzeit",
     cost: "Kosten",
     offline: "Die Ladestation antwortet nicht.",
   },

@@ -5,7 +5,7 @@ export const control: ControlWords = {
   person: (name, role) => `${name} (${role})`,
   asks: (who) => `${who} möchte den Roboter übernehmen`,
   asksDetail: "Was Sie von Hand bewegen, hält dann an. Ein laufender Auftrag geht weiter.",
-  keptIn: (seconds) => `Ohne Antwort steuern Sie weiter: ${String(seconds)} s.`,
+  keptIn: (seconds) => `Ohne Antwort steuern Sie weiter: ${String(seconds)}\u00a0s.`,
   give: "Übergeben",
   keep: "Behalten",
   held: (who) => `${who} steuert den Roboter`,
@@ -13,7 +13,7 @@ export const control: ControlWords = {
   rival: (who) => `${who} hat schon darum gebeten.`,
   ask: "Um Übergabe bitten",
   waiting: (who) => `Sie haben ${who} um die Übergabe gebeten`,
-  refusedIn: (seconds) => `Ohne Antwort bleibt es, wie es ist: ${String(seconds)} s.`,
+  refusedIn: (seconds) => `Ohne Antwort bleibt es, wie es ist: ${String(seconds)}\u00a0s.`,
   withdraw: "Nicht mehr bitten",
   answers: {
     given: (who) => `${who} hat Ihnen den Roboter übergeben`,

@@ -30,12 +30,23 @@ export const cards = {
     cancel: "Back",
   },
   steps: { title: "Progress", done: "done" },
+  outlook: {
+    about: {
+      plugged: (left: string): string => `Plugged in in about ${left}`,
+      charged: (left: string): string => `Done in about ${left}`,
+      unplugged: (left: string): string => `Free to drive in about ${left}`,
+    },
+    by: (time: string): string => `Done by ${time} at the latest`,
+    full: "Until the car is full",
+    soon: "Any moment now",
+  },
   station: {
     title: "Charging station",
     power: "Power",
     energy: "Energy",
     force: "Force",
     elapsed: "Time",
+    left: "Time left",
     cost: "Cost",
     offline: "The charging station is not answering.",
   },

@@ -3,7 +3,7 @@ export const control = {
   person: (name: string, role: string): string => `${name} (${role.toLowerCase()})`,
   asks: (who: string): string => `${who} asks for control`,
   asksDetail: "What you move by hand stops when you give it. A running job goes on.",
-  keptIn: (seconds: number): string => `Without an answer you keep it: ${String(seconds)} s.`,
+  keptIn: (seconds: number): string => `Without an answer you keep it: ${String(seconds)}\u00a0s.`,
   give: "Give control",
   keep: "Keep control",
   held: (who: string): string => `${who} is in control`,
@@ -11,7 +11,7 @@ export const control = {
   rival: (who: string): string => `${who} has asked for it.`,
   ask: "Ask for control",
   waiting: (who: string): string => `You have asked ${who} for control`,
-  refusedIn: (seconds: number): string => `Without an answer it stays as it is: ${String(seconds)} s.`,
+  refusedIn: (seconds: number): string => `Without an answer it stays as it is: ${String(seconds)}\u00a0s.`,
   withdraw: "Ask no more",
   answers: {
     given: (who: string): string => `${who} has given you control`,

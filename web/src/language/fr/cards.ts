@@ -30,12 +30,23 @@ export const cards: CardWords = {
     cancel: "Retour",
   },
   steps: { title: "Déroulement", done: "terminé" },
+  outlook: {
+    about: {
+      plugged: (left) => `Branchée dans environ ${left}`,
+      charged: (left) => `Terminé dans environ ${left}`,
+      unplugged: (left) => `Prête à partir dans environ ${left}`,
+    },
+    by: (time) => `Terminé au plus tard\u00a0: ${time}`,
+    full: "Jusqu’à ce que la voiture soit pleine",
+    soon: "D’un instant à l’autre",
+  },
   station: {
     title: "Borne de recharge",
     power: "Puissance",
     energy: "Énergie",
     force: "Force",
     elapsed: "Durée",
+    left: "Temps restant",
     cost: "Coût",
     offline: "La borne de recharge ne répond pas.",
   },

@@ -30,12 +30,23 @@ export const cards: CardWords = {
     cancel: "Indietro",
   },
   steps: { title: "Avanzamento", done: "fatto" },
+  outlook: {
+    about: {
+      plugged: (left) => `Collegata tra circa ${left}`,
+      charged: (left) => `Finito tra circa ${left}`,
+      unplugged: (left) => `Pronta a partire tra circa ${left}`,
+    },
+    by: (time) => `Finito al più tardi: ${time}`,
+    full: "Finché l’auto è piena",
+    soon: "Da un momento all’altro",
+  },
   station: {
     title: "Stazione di ricarica",
     power: "Potenza",
     energy: "Energia",
     force: "Forza",
     elapsed: "Tempo",
+    left: "Rimanente",
     cost: "Costo",
     offline: "La stazione di ricarica non risponde.",
   },

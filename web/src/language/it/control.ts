@@ -5,7 +5,7 @@ export const control: ControlWords = {
   person: (name, role) => `${name} (${role.toLowerCase()})`,
   asks: (who) => `${who} chiede i comandi`,
   asksDetail: "Ciò che si muove a mano allora si ferma. Un lavoro in corso continua.",
-  keptIn: (seconds) => `Senza risposta restano qui: ${String(seconds)} s.`,
+  keptIn: (seconds) => `Senza risposta restano qui: ${String(seconds)}\u00a0s.`,
   give: "Cedere i comandi",
   keep: "Tenere i comandi",
   held: (who) => `${who} è ai comandi`,
@@ -13,7 +13,7 @@ export const control: ControlWords = {
   rival: (who) => `${who} li ha già chiesti.`,
   ask: "Chiedere i comandi",
   waiting: (who) => `Comandi chiesti a ${who}`,
-  refusedIn: (seconds) => `Senza risposta non cambia nulla: ${String(seconds)} s.`,
+  refusedIn: (seconds) => `Senza risposta non cambia nulla: ${String(seconds)}\u00a0s.`,
   withdraw: "Non chiedere più",
   answers: {
     given: (who) => `${who} ha ceduto i comandi`,
