@@ -29,6 +29,6 @@ export const link: LinkWords = {
     interrupted: ["Unterbrochen", "Die Verbindung riss in den letzten Minuten ab und wurde neu aufgebaut. Prüfen, ob beide Stecker des USB-Kabels fest sitzen."],
     damaged: ["Beschädigte Rahmen", "USB-Kabel und seinen Schirm prüfen und es von den Motorkabeln entfernt verlegen."],
     slow: ["Langsam", "Antworten oder Messungen kommen spät oder gar nicht. Ist der Rechner beschäftigt, oder führt das Kabel über einen Hub?"],
-    good: ["Gut", "Antworten kommen sofort, und nichts ist beschädigt."],
+    good: ["Gut", "Antworten kommen sofort, und kein Schaden ist zu sehen."],
   },
 };

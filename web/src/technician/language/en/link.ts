@@ -8,7 +8,7 @@ const verdicts: Record<LinkVerdict, readonly [string, string]> = {
   interrupted: ["Interrupted", "The link was lost and opened anew in the last minutes. Check that both plugs of the USB cable sit firmly."],
   damaged: ["Damaged frames", "Check the USB cable and its shield, and lay it away from the motor cables."],
   slow: ["Slow", "Answers or samples come late or not at all. Is the computer busy, or does the cable go through a hub?"],
-  good: ["Good", "Answers come at once, and nothing is damaged."],
+  good: ["Good", "Answers come at once, and no damage is seen."],
 };
 
 export const link = {

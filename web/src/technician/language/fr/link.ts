@@ -29,6 +29,6 @@ export const link: LinkWords = {
     interrupted: ["Interrompue", "La liaison a été perdue et rouverte ces dernières minutes. Vérifiez que les deux fiches du câble USB tiennent bien."],
     damaged: ["Trames abîmées", "Vérifiez le câble USB et son blindage, et éloignez-le des câbles des moteurs."],
     slow: ["Lente", "Les réponses ou les mesures viennent tard ou pas du tout. L’ordinateur est-il occupé, ou le câble passe-t-il par un concentrateur\u00a0?"],
-    good: ["Bonne", "Les réponses viennent aussitôt et rien n’est abîmé."],
+    good: ["Bonne", "Les réponses viennent aussitôt, et on ne voit aucun dégât."],
   },
 };

@@ -29,6 +29,6 @@ export const link: LinkWords = {
     interrupted: ["Interrotto", "Negli ultimi minuti il collegamento è caduto ed è stato riaperto. Controllare che le due spine del cavo USB siano ben salde."],
     damaged: ["Trame danneggiate", "Controllare il cavo USB e la sua schermatura, e allontanarlo dai cavi dei motori."],
     slow: ["Lento", "Risposte o misure arrivano tardi o per niente. Il computer è occupato, o il cavo passa per un hub?"],
-    good: ["Buono", "Le risposte arrivano subito e nulla è danneggiato."],
+    good: ["Buono", "Le risposte arrivano subito e non si vede alcun danno."],
   },
 };
