@@ -19,7 +19,12 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from server.calibration.robot.common_effects import SIGMA_MM, common_effects, lines_of_sight
+from server.calibration.robot.common_effects import (
+    EFFECTS,
+    common_effects,
+    effect_sigmas,
+    lines_of_sight,
+)
 from server.calibration.robot.errors import TooFewLooksError
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import DISTANCE_SIGMA_MM
@@ -125,7 +130,7 @@ def _length(order: list[int], way: Array, from_start: Array) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Places:
-    """Looks that may be taken: their designs (n, 3, 28), and their noise (n, 3, 3)."""
+    """Looks that may be taken: their designs (n, 3, 30), and their noise (n, 3, 3)."""
 
     design: Array
     noise: Array
@@ -142,20 +147,20 @@ class _Places:
         return cls(np.concatenate((guess.derivatives(rho_mm), effects), axis=2), noise)
 
     def information(self) -> Array:
-        """Of a look from each place, shape (n, 28, 28)."""
+        """Of a look from each place, shape (n, 30, 30)."""
         weighted = np.linalg.solve(self.noise, self.design)
         return np.asarray(np.swapaxes(self.design, 1, 2) @ weighted)
 
 
 def _prior_information(known: KnownBefore) -> Array:
-    sigma = np.concatenate((np.minimum(known.sigma, _FAR_MM), SIGMA_MM))
+    sigma = np.concatenate((np.minimum(known.sigma, _FAR_MM), effect_sigmas(known.lens_sigma_rad)))
     return np.diag(1.0 / sigma**2)
 
 
 def _at_tip(guess: Unknowns) -> Array:
-    """M of the equation above, shape (28, 28)."""
+    """M of the equation above, shape (30, 30)."""
     slopes = tip_slopes(guess)
-    found = np.zeros((len(NAMES) + len(SIGMA_MM),) * 2)
+    found = np.zeros((len(NAMES) + EFFECTS,) * 2)
     found[MECHANISM, MECHANISM] = np.einsum("nij,nik->jk", slopes, slopes) / len(slopes)
     return found
 

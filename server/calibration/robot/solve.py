@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from server.calibration.robot.common_effects import SIGMA_MM, common_effects
+from server.calibration.robot.common_effects import EFFECTS, common_effects, effect_sigmas
 from server.calibration.robot.errors import RobotFitDivergedError, TooFewLooksError
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook, LookTable
@@ -32,7 +32,7 @@ from twin.geometry import RobotGeometry
 Array = NDArray[np.float64]
 
 FEWEST_LOOKS = 6
-REST_SIGMAS_MM = (0.003, 0.02)
+REST_SIGMAS_MM = (0.002, 0.02)
 """A robot comes to rest no better than to half a step of its motors, and where it scatters more
 than that largest number, something is loose: then looks are left out rather than believed less."""
 HUBER = 3.4
@@ -43,8 +43,12 @@ FITS = 0.5
 _STEPS = 60
 _SMALL_STEP = 1e-7
 """A step this small against the posterior sigma changes nothing."""
-_FEWEST_LEFT = 6
+_FEWEST_LEFT = 10
 """Numbers that must be left over before they say how exactly the robot comes to rest."""
+_LESS_SURE = 4
+"""Of n numbers that are left over so many count no more. The scatter is estimated, so an ellipsoid
+of seven numbers must be larger by F(7, n) over chi squared to hold 95 % (Hotelling 1931): that is
+n / (n - 4) to 2 % from n = 15 on."""
 _REST_ROUNDS, _REST_SETTLED = 4, 0.05
 
 
@@ -54,7 +58,7 @@ class RobotSolution:
 
     Attributes:
         unknowns: The solution.
-        effects_mm: What all looks share, in the order of `common_effects`, shape (14,) [mm].
+        shared: What all looks share, in the order of `common_effects`, shape (16,).
         covariance: Of the unknowns, shape (14, 14).
         residual_mm: Of each look, seen less predicted, camera frame, shape (n, 3) [mm].
         weight: Of each look, 1 down to 0 for one that does not fit, shape (n,).
@@ -62,7 +66,7 @@ class RobotSolution:
     """
 
     unknowns: Unknowns
-    effects_mm: Array
+    shared: Array
     covariance: Array
     residual_mm: Array
     weight: Array
@@ -82,7 +86,7 @@ class RobotSolution:
     def residual_of(self, looks: Sequence[LabelLook]) -> Array:
         """Seen less predicted of any looks at the same label, shape (n, 3) [mm]."""
         table = LookTable.of(looks)
-        fitted = _Fit(self.unknowns, self.effects_mm)
+        fitted = _Fit(self.unknowns, self.shared)
         return fitted.residual(table, _effects_at(table, self.unknowns))
 
 
@@ -113,7 +117,7 @@ def solve_robot(
     prior = _Prior.about(start, known or KnownBefore())
     # the effects are so small that a look a few millimetres beside its place feels the same ones
     effects = _effects_at(table, start)
-    fit = _Fit(prior.centre, np.zeros(len(SIGMA_MM)))
+    fit = _Fit(prior.centre, np.zeros(EFFECTS))
     rest_sigma_mm = REST_SIGMAS_MM[1]
     for _ in range(_REST_ROUNDS):
         data = _Data(table, effects, table.whitening(rest_sigma_mm))
@@ -125,7 +129,7 @@ def solve_robot(
     normal, _, weight = _normal_equations(fit, data, prior)
     return RobotSolution(
         fit.unknowns,
-        fit.effects_mm,
+        fit.shared,
         np.asarray(np.linalg.inv(normal))[: len(NAMES), : len(NAMES)],
         fit.residual(table, effects),
         weight,
@@ -138,15 +142,15 @@ class _Fit:
     """A guess of everything that is solved for."""
 
     unknowns: Unknowns
-    effects_mm: Array
+    shared: Array
 
     def stepped(self, step: Array) -> _Fit:
         count = len(NAMES)
-        return _Fit(self.unknowns.stepped(step[:count]), self.effects_mm + step[count:])
+        return _Fit(self.unknowns.stepped(step[:count]), self.shared + step[count:])
 
     def residual(self, table: LookTable, effects: Array) -> Array:
         """Seen less predicted, shape (n, 3) [mm]."""
-        predicted = self.unknowns.predict(table.rho_mm) + effects @ self.effects_mm
+        predicted = self.unknowns.predict(table.rho_mm) + effects @ self.shared
         return np.asarray(table.label_mm - predicted)
 
 
@@ -163,7 +167,7 @@ class _Data:
         return np.asarray(np.einsum("nij,nj->ni", self.whitening, residual))
 
     def design(self, fit: _Fit) -> Array:
-        """Derivatives of what is predicted, not whitened, shape (n, 3, 28)."""
+        """Derivatives of what is predicted, not whitened, shape (n, 3, 30)."""
         by_unknowns = fit.unknowns.derivatives(self.table.rho_mm)
         return np.concatenate((by_unknowns, self.effects), axis=2)
 
@@ -180,11 +184,12 @@ class _Prior:
         values = start.values.copy()
         for name, scale in zip(("left_scale", "right_scale"), known.scales, strict=True):
             values[NAMES.index(name)] = scale
+        sigma = np.concatenate((known.sigma, effect_sigmas(known.lens_sigma_rad)))
         centre = Unknowns(start.drawn, start.R_base_camera_drawn, values)
-        return cls(centre, np.concatenate((1.0 / known.sigma**2, 1.0 / SIGMA_MM**2)))
+        return cls(centre, 1.0 / sigma**2)
 
     def off(self, fit: _Fit) -> Array:
-        return np.concatenate((fit.unknowns.values - self.centre.values, fit.effects_mm))
+        return np.concatenate((fit.unknowns.values - self.centre.values, fit.shared))
 
 
 def _fitted(fit: _Fit, data: _Data, prior: _Prior) -> _Fit:
@@ -254,5 +259,5 @@ def _rest_sigma_mm(fit: _Fit, data: _Data, prior: _Prior, assumed_mm: float) -> 
     left = 2 * len(off) - float(eaten) / (assumed_mm**2 + pictures)
     if left < _FEWEST_LEFT:
         return assumed_mm
-    scatter = float(np.sum(off**2)) / left - pictures
+    scatter = float(np.sum(off**2)) / (left - _LESS_SURE) - pictures
     return float(np.clip(math.sqrt(max(scatter, 0.0)), *REST_SIGMAS_MM))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
 from server.calibration.routines.errors import LabelLostError, LabelMovedError
-from server.calibration.routines.known import known_before
+from server.calibration.routines.known import known_before, lens_sigma_rad
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_memory import KeptLook, RobotMemory
 from server.calibration.routines.robot_places import FirstLook, next_places
@@ -225,4 +225,6 @@ class RobotRoutine:
         progress.looked(x_mm, y_mm, seen=look is not None)
 
     def _known(self, stand: Stand) -> KnownBefore:
-        return known_before(self.request, self.vehicle.label_size_mm, stand.belts)
+        return known_before(
+            self.request, self.vehicle.label_size_mm, stand.belts, lens_sigma_rad(stand)
+        )

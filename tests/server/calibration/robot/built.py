@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from server.calibration.robot.common_effects import SIGMA_MM, common_effects
+from server.calibration.robot.common_effects import EFFECTS, common_effects, effect_sigmas
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
 from server.calibration.robot.unknowns import MECHANISM, NAMES, mechanism_values
@@ -26,6 +26,7 @@ BUILT_WITHIN = np.array([3, 3, 3, 3, 3, 3, math.radians(0.5), math.radians(0.5),
 CAMERA_WITHIN_RAD = math.radians(3.0)
 PICTURE_MM = np.diag([0.01, 0.01, 0.05])
 REST_MM = 0.02
+LENS_RAD = KnownBefore().lens_sigma_rad
 MEASURED_SCALE = 0.0004
 MEASURED_LABEL = 0.0017
 
@@ -42,7 +43,7 @@ class Workshop:
     rng: np.random.Generator
     rest_mm: float = REST_MM
     picture_mm: Array = field(default_factory=PICTURE_MM.copy)
-    effects_mm: Array = field(default_factory=lambda: np.zeros(len(SIGMA_MM)))
+    effects: Array = field(default_factory=lambda: np.zeros(EFFECTS))
 
     @classmethod
     def robot(cls, seed: int) -> Workshop:
@@ -69,14 +70,19 @@ class Workshop:
         )
 
     @classmethod
-    def sagging(cls, seed: int, rest_mm: float = 0.01) -> Workshop:
+    def sagging(
+        cls, seed: int, rest_mm: float = 0.01, lens_sigma_rad: float = LENS_RAD
+    ) -> Workshop:
         """The same robot, sagging, with a sharp camera before a label that is not flat."""
-        chance = np.random.default_rng((seed, 1)).normal(size=len(SIGMA_MM))
+        chance = np.random.default_rng((seed, 1)).normal(size=EFFECTS)
+        robot = cls.robot(seed)
+        known = robot.known.model_copy(update={"lens_sigma_rad": lens_sigma_rad})
         return replace(
-            cls.robot(seed),
+            robot,
+            known=known,
             rest_mm=rest_mm,
             picture_mm=0.2 * PICTURE_MM,
-            effects_mm=SIGMA_MM * chance,
+            effects=effect_sigmas(lens_sigma_rad) * chance,
         )
 
     def look(self, rho_mm: Array, *, label_moved_mm: float = 0.0) -> LabelLook:
@@ -88,7 +94,7 @@ class Workshop:
         shared = common_effects(seen[None], platform[None], self.R_base_camera, DRAWN.regular_box)[
             0
         ]
-        seen = seen + shared @ self.effects_mm + self.picture_mm @ self.rng.normal(size=3)
+        seen = seen + shared @ self.effects + self.picture_mm @ self.rng.normal(size=3)
         return LabelLook(rho_mm, seen, self.picture_mm**2)
 
     def looks(self, count: int = 25) -> list[LabelLook]:

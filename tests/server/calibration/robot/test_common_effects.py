@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from server.calibration.robot import solve
-from server.calibration.robot.common_effects import SIGMA_MM, common_effects, lines_of_sight
+from server.calibration.robot.common_effects import EFFECTS, common_effects, lines_of_sight
 from tests.server.calibration.robot.built import DRAWN, R_DRAWN, Workshop
 
 PLACES = np.array([[560.0, 250.0], [650.0, 335.0], [741.0, 390.0], [900.0, 600.0]])
@@ -27,7 +27,7 @@ def test_a_bulge_moves_the_label_along_the_line_of_sight_only() -> None:
 
 def test_a_sag_that_is_the_same_everywhere_moves_all_looks_alike() -> None:
     found = common_effects(LABEL, PLACES, R_DRAWN, DRAWN.regular_box)
-    lower = found[:, :, 5:].sum(axis=2)
+    lower = found[:, :, 7:].sum(axis=2)
     np.testing.assert_allclose(lower, np.tile(R_DRAWN.T @ [0.0, 1.0, 0.0], (4, 1)), atol=1e-12)
 
 
@@ -36,7 +36,7 @@ def test_a_bulging_label_bends_the_robot_less_than_if_it_were_flat(
 ) -> None:
     robots = [Workshop.sagging(seed, 0.002) for seed in range(12)]
     solved_for = [_error_mm(robot) for robot in robots]
-    monkeypatch.setattr(solve, "SIGMA_MM", 1e-6 * SIGMA_MM)
+    monkeypatch.setattr(solve, "effect_sigmas", lambda _: np.full(EFFECTS, 1e-7))
     taken_for_chance = [_error_mm(robot) for robot in robots]
     assert np.median(solved_for) < 0.06
     assert np.median(taken_for_chance) > 2 * np.median(solved_for)
