@@ -17,16 +17,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from server.calibration.robot.common_effects import SAG_SIGMA_MM
 from server.calibration.robot.solve import RobotSolution
-from server.calibration.robot.unknowns import MECHANISM
+from server.calibration.robot.unknowns import MECHANISM, Unknowns
 from twin.geometry import RobotGeometry
 
 Array = NDArray[np.float64]
 
 SLIDE_SIGMA_RAD = np.radians(0.25)
 """Inclination of a slide that was put up by eye and a printed angle."""
-SAG_SIGMA_MM = 0.02
-"""Of the sag about its mean over the box, by the published tables."""
 _PLACES, _DEPTHS = 7, 3
 _ROBOTS = 400
 _SURE = 95.0
@@ -47,19 +46,24 @@ class TipDoubt(NamedTuple):
 def tip_doubt(solution: RobotSolution) -> TipDoubt:
     """What the doubt about the built robot means at the tip, all over the regular box."""
     drawn = solution.unknowns.drawn
-    platform = _platform_places(drawn)
-    slopes = _without_rigid_motion(solution.unknowns.tip_derivatives(platform), platform)
+    slopes = tip_slopes(solution.unknowns)
     rng = np.random.default_rng(0)  # the same robots for everybody: no chance in the verdict
     covariance = solution.covariance[MECHANISM, MECHANISM]
     wrong = rng.multivariate_normal(np.zeros(len(covariance)), covariance, _ROBOTS)
     in_plane = np.einsum("nij,rj->rni", slopes, wrong)[:, None]
     depths_mm = np.linspace(-0.5, 0.5, _DEPTHS) * drawn.regular_box.depth_mm
     inclined = rng.normal(0.0, SLIDE_SIGMA_RAD, _ROBOTS)[:, None] * depths_mm
-    sagged = rng.normal(0.0, SAG_SIGMA_MM, (_ROBOTS, 1, len(platform)))
+    sagged = rng.normal(0.0, SAG_SIGMA_MM, (_ROBOTS, 1, len(slopes)))
     up = in_plane[..., 1] + inclined[..., None] + sagged
     missed = np.hypot(in_plane[..., 0], up).reshape(_ROBOTS, -1)
     likely, at_most = np.percentile(np.percentile(missed, _SURE, axis=1), (50.0, _SURE)).tolist()
     return TipDoubt(likely, at_most)
+
+
+def tip_slopes(unknowns: Unknowns) -> Array:
+    """P J of the equation above at places all over the regular box, shape (n, 2, 7)."""
+    platform = _platform_places(unknowns.drawn)
+    return _without_rigid_motion(unknowns.tip_derivatives(platform), platform)
 
 
 def _platform_places(drawn: RobotGeometry) -> Array:
@@ -72,7 +76,7 @@ def _platform_places(drawn: RobotGeometry) -> Array:
 
 
 def _without_rigid_motion(slopes: Array, places: Array) -> Array:
-    """P J of the equation above, shape (n, 2, k)."""
+    """P J, shape (n, 2, k)."""
     x, y = (places - places.mean(axis=0)).T
     motions = np.zeros((len(places), 2, 3))
     motions[:, 0, 0] = motions[:, 1, 1] = 1.0

@@ -18,7 +18,7 @@ from server.calibration.grade import Grade, worst
 from server.calibration.robot.errors import RobotFitDivergedError
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
-from server.calibration.robot.solve import RobotSolution, solve_robot
+from server.calibration.robot.solve import FITS, RobotSolution, solve_robot
 from server.calibration.robot.tip_doubt import TipDoubt, tip_doubt
 from server.calibration.robot.unknowns import NAMES, WORDS, Unknowns
 from twin.as_built import PlanarAsBuilt
@@ -31,7 +31,6 @@ GOOD_MM, USABLE_MM = 0.06, 0.15
 """Root mean square error across the picture of looks that were held back."""
 GOOD_TIP_MM, USABLE_TIP_MM = 0.2, 1.0
 """What the tip may miss in 95 % of the box, in 95 of 100 cases."""
-OUTLIER_WEIGHT = 0.5
 MOST_OUTLIERS = 0.2
 LABEL_RATIOS = (0.995, 1.005)
 """True size of a label over the entered one, at most."""
@@ -106,7 +105,7 @@ def judge(
                 f"one by {held_back_mm:.2f} mm.",
             )
         )
-    outliers = float(np.mean(solution.weight < OUTLIER_WEIGHT))
+    outliers = float(np.mean(solution.weight < FITS))
     if outliers > MOST_OUTLIERS:
         marks.append(
             (
@@ -142,12 +141,10 @@ def _held_back_mm(
         rest = [look for number, look in enumerate(looks) if number % GROUPS != group]
         held = looks[group::GROUPS]
         try:
-            fitted = solve_robot(rest, drawn, R_base_camera_drawn, known).unknowns
+            fitted = solve_robot(rest, drawn, R_base_camera_drawn, known)
         except RobotFitDivergedError:
             return np.inf
-        seen = np.stack([look.label_mm for look in held])
-        off = seen - fitted.predict(np.stack([look.rho_mm for look in held]))
-        squares += np.sum(off[:, :2] ** 2, axis=1).tolist()
+        squares += np.sum(fitted.residual_of(held)[:, :2] ** 2, axis=1).tolist()
     return float(np.sqrt(np.mean(squares)))
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from server.calibration.axes.estimates import Estimate, belt_scale
 from server.calibration.grade import Grade
 from server.calibration.robot.known_before import KnownBefore
+from server.calibration.routines.known import lens_sigma_rad
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_result import result_of
 from server.calibration.routines.stand import Stand
@@ -115,6 +116,7 @@ class BeltsRoutine:
                 left_scale=left.value,
                 right_scale=right.value,
                 scale_sigma=max(left.sigma, right.sigma),
+                lens_sigma_rad=lens_sigma_rad(stand),
             )
             looks = [look_of(record) for record in stand.evidence.looks]
             return result_of(looks, stand, known, made_by=self.by, duration_s=0.0, source=source)

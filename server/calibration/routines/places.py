@@ -1,61 +1,53 @@
-"""From where the label is in the picture."""
+"""From where the label is in the picture, and not behind the robot's own plug."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import NamedTuple
+
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
-from server.calibration.robot.looks import LabelLook
+from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
-from twin.kinematics import alpha, singularity
+from twin.kinematics import alpha, gamma, singularity
 
 Array = NDArray[np.float64]
 
 STEP_MM = 20.0
 REACH_MM = 220.0
-EDGE_PX = 25.0
-"""Room for a camera that is turned by 3 degrees. More would keep the looks so near together that
-the mechanism is extrapolated over half of the box; a place that then misses the label is left out.
-"""
 RAIL_END_MM = 8.0
 LABEL_MARGIN = 1.16
 """Code and the quiet zone that the reader needs, over the code alone."""
 
 
-def places_with_label(
-    geometry: RobotGeometry,
-    optics: CameraModel,
-    R_base_camera: Array,
-    *,
-    centre_mm: Array,
-    seen: LabelLook,
-    label_size_mm: float,
-) -> Array:
-    """Carriages of a grid of places from which the whole label should be in the picture.
+class Margins(NamedTuple):
+    """Room that a label must keep.
+
+    Attributes:
+        edge_px: From the picture's edge.
+        plug_mm: From the plug: at least what the camera may sit beside its place on the drawing.
+    """
+
+    edge_px: float
+    plug_mm: float
+
+
+def reachable_places(geometry: RobotGeometry, centre_mm: Array) -> Array:
+    """Carriages of a grid of places that the robot reaches and where it is stiff.
 
     Args:
         geometry: Of the robot as drawn.
-        optics: Of the camera.
-        R_base_camera: How it is turned as far as known, shape (3, 3).
-        centre_mm: Where the platform stood at one look, shape (2,) [mm].
-        seen: What that look saw.
-        label_size_mm: Side of the code.
+        centre_mm: Of the grid, shape (2,) [mm].
 
     Returns:
         (rho1, rho2) of the drawing, shape (n, 2) [mm].
     """
     steps = np.arange(-REACH_MM, REACH_MM + 1, STEP_MM)
     away = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
-    label_mm = seen.label_mm - np.column_stack((away, np.zeros(len(away)))) @ R_base_camera
-    turned = abs(np.cos(seen.turned_rad)) + abs(np.sin(seen.turned_rad))
-    half_mm = 0.5 * LABEL_MARGIN * label_size_mm * turned
-    room_px = EDGE_PX + optics.fx * half_mm / label_mm[:, 2]
-    u = optics.cx + optics.fx * label_mm[:, 0] / label_mm[:, 2]
-    v = optics.cy + optics.fy * label_mm[:, 1] / label_mm[:, 2]
-    inside = (u > room_px) & (u < optics.width - room_px)
-    inside &= (v > room_px) & (v < optics.height - room_px)
-    rho = alpha.inverse_many(geometry, (centre_mm + away)[inside])
+    rho = alpha.inverse_many(geometry, centre_mm + away)
     low = np.array([geometry.rho1.min_mm, geometry.rho2.min_mm]) + RAIL_END_MM
     high = np.array([geometry.rho1.max_mm, geometry.rho2.max_mm]) - RAIL_END_MM
     rho = rho[np.all((rho > low) & (rho < high), axis=1)]
@@ -63,3 +55,68 @@ def places_with_label(
     limits = singularity.thresholds(singularity.SingularityLimits())
     regular = np.all(singularity.measures_many(geometry, joints) >= limits, axis=1)
     return rho[regular]
+
+
+def label_is_seen(
+    label_mm: Array,
+    *,
+    half_mm: float,
+    optics: CameraModel,
+    edge_px: float,
+    hidden: Callable[[Array], NDArray[np.bool_]],
+) -> NDArray[np.bool_]:
+    """Whether the whole label is in the picture, shape (n,).
+
+    Args:
+        label_mm: Its middle in the camera frame, shape (n, 3) [mm].
+        half_mm: From its middle to each side of the square about it, level with the picture.
+        optics: Of the camera.
+        edge_px: Room that it must keep from the picture's edge.
+        hidden: Which points in the camera frame, shape (m, 3), the plug hides.
+    """
+    sides = np.array([-1.0, 0.0, 1.0])
+    about = np.stack(np.meshgrid(sides, sides, [0.0]), axis=-1).reshape(-1, 3) * half_mm
+    points = (label_mm[:, None] + about).reshape(-1, 3)
+    pixels, _ = cv2.projectPoints(
+        points, np.zeros(3), np.zeros(3), optics.matrix, optics.distortion
+    )
+    room = np.minimum(pixels, [optics.width - 1, optics.height - 1] - pixels).min(axis=(1, 2))
+    seen = (room > edge_px) & (points[:, 2] > 0) & ~hidden(points)
+    return np.asarray(seen.reshape(len(label_mm), -1).all(axis=1))
+
+
+def half_of_label_mm(label_size_mm: float, turned_rad: float) -> float:
+    """Half the side of the level square about a label and its quiet zone [mm]."""
+    turned = abs(np.cos(turned_rad)) + abs(np.sin(turned_rad))
+    return float(0.5 * LABEL_MARGIN * label_size_mm * turned)
+
+
+def behind_the_plug(
+    geometry: RobotGeometry, mount: CameraMount, R_base_camera: Array, margin_mm: float
+) -> Callable[[Array], NDArray[np.bool_]]:
+    """Tells which points the plug hides while it is drawn back.
+
+    The plug is a cylinder from the platform to its tip; what comes nearer to its axis than its
+    half width and a margin, anywhere on the line of sight, is hidden.
+
+    Args:
+        geometry: Of the robot as drawn.
+        mount: Where the camera sits on the platform.
+        R_base_camera: How it is turned as far as known, shape (3, 3).
+        margin_mm: Room beside the plug.
+    """
+    dy_mm, z_mm = gamma.tip_offset(geometry, geometry.rho3.min_mm)
+    towards = np.array(geometry.insertion_axis)
+    tip = np.array([0.0, dy_mm, z_mm]) - mount.T_platform_camera[:3, 3]
+    axis = np.linspace(0.0, z_mm / towards[2], 41)[:, None] * -towards + tip
+    width_mm = 0.5 * geometry.plug_diameter_mm + margin_mm
+    in_camera = axis @ R_base_camera
+
+    def hidden(points_mm: Array) -> NDArray[np.bool_]:
+        sight = points_mm / np.linalg.norm(points_mm, axis=1, keepdims=True)
+        along = sight @ in_camera.T
+        off = np.sum(in_camera**2, axis=1) - along**2
+        within = (along > 0) & (along < np.linalg.norm(points_mm, axis=1, keepdims=True))
+        return np.asarray(np.any(within & (off < width_mm**2), axis=1))
+
+    return hidden

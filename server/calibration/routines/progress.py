@@ -36,6 +36,12 @@ class Progress:
         self.doing = doing
         self.changed()
 
+    def restart(self) -> None:
+        """Begin anew: what was looked from before counts no more."""
+        self.done = self.total = 0
+        self.looks.clear()
+        self.changed()
+
     def looked(self, x_mm: float, y_mm: float, *, seen: bool) -> None:
         """A place is done."""
         self.looks.append(RoutineLook(x_mm=round(x_mm, 1), y_mm=round(y_mm, 1), seen=seen))

@@ -12,6 +12,7 @@ from server.calibration.robot.moved_switch import moved_switch_mm
 from server.calibration.robot.solve import RobotSolution, solve_robot
 from server.calibration.robot.unknowns import NAMES, WORDS
 from server.calibration.robot.verdict import judge
+from server.calibration.routines.known import lens_is_measured
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.comparing import records_of
 from server.calibration.versions.new_calibration import NewCalibration
@@ -51,7 +52,7 @@ def result_of(
     if switch is not None:
         remarks.append(switch)
         grade = worst([grade, Grade.USABLE])
-    if stand.eye.optics == stand.settings.camera.optics and not stand.settings.camera.calibration:
+    if not lens_is_measured(stand):
         remarks.append(LENS_UNKNOWN)
         grade = worst([grade, Grade.USABLE])
     unknowns = solution.unknowns

@@ -1,8 +1,12 @@
-"""The robot as it was built, from 25 looks at one label.
+"""The robot as it was built, from looks at one label out of 25 poses at most.
 
-Two looks, each with one carriage moved by itself, show that the motors are connected as they should
-be. The next has the label in the middle of the picture. Twenty-one follow from the places
-that tell most, and the last is the first one again: the label must be where it was.
+Where the label is found, two looks, each with one carriage moved by itself, show that the motors
+are connected as they should be. The next has the label in the middle of the picture. Twenty follow
+from the places that tell most, and the last is from the middle again: the label must be where it
+was.
+
+Every pose counts from where the label is found, also one without the label and a repeated one; for
+each of them there is one place less among those that tell most.
 """
 
 from __future__ import annotations
@@ -16,13 +20,11 @@ from numpy.typing import NDArray
 
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
-from server.calibration.robot.poses import choose_places, in_travelling_order
-from server.calibration.robot.unknowns import Unknowns
 from server.calibration.routines.errors import LabelLostError, LabelMovedError
-from server.calibration.routines.known import known_before
-from server.calibration.routines.places import places_with_label
+from server.calibration.routines.known import known_before, lens_sigma_rad
 from server.calibration.routines.progress import Progress
 from server.calibration.routines.robot_memory import KeptLook, RobotMemory
+from server.calibration.routines.robot_places import FirstLook, next_places
 from server.calibration.routines.robot_result import result_of
 from server.calibration.routines.stand import Stand
 from server.calibration.routines.wiring import check_wiring
@@ -36,20 +38,11 @@ from twin.joints import JointPosition
 Array = NDArray[np.float64]
 
 WIRING_STEP_MM = 12.0
-CHOSEN = 21
-"""With the first, two for the wiring, and the first again: 25 poses."""
+POSES = 25
+"""At most, from where the label is found to the middle again."""
 FEWEST_LOOKS = 16
 MOVED_MM = 0.25
 """A label that is off by more than this has moved: the robot comes back to 0.1 mm at worst."""
-
-
-@dataclass(slots=True, eq=False)
-class _First:
-    """A look with where the robot stood: at last with the label in the middle of the picture."""
-
-    joints: JointPosition
-    platform_mm: Array
-    look: LabelLook
 
 
 @dataclass(slots=True, eq=False)
@@ -65,7 +58,7 @@ class RobotRoutine:
     request: RobotRoutineRequest
     by: str
     vehicle: Vehicle
-    _first: _First | None = None
+    _first: FirstLook | None = None
     _looks: list[LabelLook] = field(default_factory=list)
     _left: list[JointPosition] | None = None
     _spent_s: float = 0.0
@@ -77,7 +70,7 @@ class RobotRoutine:
             memory.request,
             by,
             vehicle,
-            _First(memory.stood_at, np.array(memory.platform_mm), memory.first.look),
+            FirstLook(memory.stood_at, np.array(memory.platform_mm), memory.first.look),
             [kept.look for kept in memory.looks],
             list(memory.left),
             memory.spent_s,
@@ -111,28 +104,35 @@ class RobotRoutine:
         )
 
     async def _collect(self, stand: Stand, progress: Progress) -> None:
-        if self._left is None:
-            self._left = await self._begin(stand, progress)
+        if self._left is None or progress.done >= POSES:
+            await self._begin(stand, progress)
             await self._remember(stand)
         else:
             await self._require_unmoved(stand, progress)
         progress.say("Looking at the label from many places.")
-        while self._left:
-            try:
-                await stand.go_joints(self._left[0])
-                look = await stand.look()
-            except (MotionOutOfReachError, ActuatorOverloadError):
-                look = None
-            self._left.pop(0)
-            self._take(stand, progress, look)
+        while (room := POSES - progress.done - 1) > 0:
+            if not self._left or len(self._left) > room:
+                self._left = await asyncio.to_thread(self._next_places, stand, room)
+            await self._look_from(stand, progress, self._left)
             await self._remember(stand)
-        await self._require_unmoved(stand, progress)
+            if room == 1:
+                await self._require_unmoved(stand, progress)
         if len(self._looks) < FEWEST_LOOKS:
             raise LabelLostError(
                 f"The label was seen from {len(self._looks)} of {progress.done} places; "
                 f"{FEWEST_LOOKS} are needed.",
                 looks=len(self._looks),
             )
+
+    async def _look_from(self, stand: Stand, progress: Progress, left: list[JointPosition]) -> None:
+        """Look from the next place; one that cannot be had is left out, and counts."""
+        try:
+            await stand.go_joints(left[0])
+            look = await stand.look()
+        except (MotionOutOfReachError, ActuatorOverloadError):
+            look = None
+        left.pop(0)
+        self._take(stand, progress, look)
 
     async def _remember(self, stand: Stand) -> None:
         if self._first is None or self._left is None:
@@ -151,10 +151,15 @@ class RobotRoutine:
             )
         )
 
-    async def _begin(self, stand: Stand, progress: Progress) -> list[JointPosition]:
+    async def _begin(self, stand: Stand, progress: Progress) -> None:
+        progress.restart()
         progress.say("Looking for the label.")
         self._looks.clear()
+        self._left = None
         found = self._here(stand, await stand.find_label())
+        # it may have come there from either side, so this look is not kept
+        progress.looked(*found.platform_mm.tolist(), seen=True)
+        progress.total = POSES
         # before the way to the middle: with wrong motors the label would be lost on it
         progress.say("Checking that each motor moves its own carriage.")
         checked = await self._check_wiring(stand, progress, found)
@@ -166,11 +171,9 @@ class RobotRoutine:
             raise LabelLostError(
                 f"After a step of {WIRING_STEP_MM:g} mm the label was out of the picture."
             )
-        left = await asyncio.to_thread(self._choose, stand, self._first)
-        progress.total = progress.done + len(left) + 1
-        return left
+        self._left = []
 
-    async def _check_wiring(self, stand: Stand, progress: Progress, first: _First) -> bool:
+    async def _check_wiring(self, stand: Stand, progress: Progress, first: FirstLook) -> bool:
         """Move each carriage a little; False if the label was lost by that."""
         steps = WIRING_STEP_MM * np.eye(2)
         moved = []
@@ -181,31 +184,23 @@ class RobotRoutine:
                 )
             )
             look = await stand.look()
+            self._take(stand, progress, look)
             if look is None:
                 return False
-            self._take(stand, progress, look)
             moved.append(stand.R_base_camera @ (first.look.label_mm - look.label_mm))
         drawn = PlanarAsBuilt.as_drawn(stand.supervisor.geometry)
         check_wiring(drawn, first.look.rho_mm, steps, np.stack(moved)[:, :2])
         return True
 
     @staticmethod
-    def _here(stand: Stand, look: LabelLook) -> _First:
+    def _here(stand: Stand, look: LabelLook) -> FirstLook:
         joints = stand.supervisor.telemetry.require().commanded.position
-        return _First(joints, stand.platform_mm, look)
+        return FirstLook(joints, stand.platform_mm, look)
 
-    def _choose(self, stand: Stand, first: _First) -> list[JointPosition]:
-        geometry = stand.supervisor.geometry
-        rotation = stand.R_base_camera
-        candidates = places_with_label(
-            geometry, stand.eye.optics, rotation, centre_mm=first.platform_mm,
-            seen=first.look, label_size_mm=self.vehicle.label_size_mm,
-        )  # fmt: skip
-        guess = Unknowns.guess(geometry, rotation, first.look.rho_mm, first.look.label_mm)
-        chosen = candidates[choose_places(candidates, guess, self._known(stand), CHOSEN)]
-        here = np.array([first.joints.rho1_mm, first.joints.rho2_mm])
-        ordered = chosen[in_travelling_order(chosen, here)]
-        return [JointPosition(a, b, geometry.rho3.min_mm) for a, b in ordered.tolist()]
+    def _next_places(self, stand: Stand, room: int) -> list[JointPosition]:
+        if self._first is None:
+            raise AssertionError("places were chosen before the label was found")
+        return next_places(stand, self._known(stand), self._first, self._looks, room)
 
     async def _require_unmoved(self, stand: Stand, progress: Progress) -> None:
         if self._first is None:
@@ -230,4 +225,6 @@ class RobotRoutine:
         progress.looked(x_mm, y_mm, seen=look is not None)
 
     def _known(self, stand: Stand) -> KnownBefore:
-        return known_before(self.request, self.vehicle.label_size_mm, stand.belts)
+        return known_before(
+            self.request, self.vehicle.label_size_mm, stand.belts, lens_sigma_rad(stand)
+        )

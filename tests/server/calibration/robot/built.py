@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from server.calibration.robot.common_effects import EFFECTS, common_effects, effect_sigmas
 from server.calibration.robot.known_before import KnownBefore
 from server.calibration.robot.looks import LabelLook
 from server.calibration.robot.unknowns import MECHANISM, NAMES, mechanism_values
@@ -25,6 +26,7 @@ BUILT_WITHIN = np.array([3, 3, 3, 3, 3, 3, math.radians(0.5), math.radians(0.5),
 CAMERA_WITHIN_RAD = math.radians(3.0)
 PICTURE_MM = np.diag([0.01, 0.01, 0.05])
 REST_MM = 0.02
+LENS_RAD = KnownBefore().lens_sigma_rad
 MEASURED_SCALE = 0.0004
 MEASURED_LABEL = 0.0017
 
@@ -39,6 +41,9 @@ class Workshop:
     label_ratio: float
     known: KnownBefore
     rng: np.random.Generator
+    rest_mm: float = REST_MM
+    picture_mm: Array = field(default_factory=PICTURE_MM.copy)
+    effects: Array = field(default_factory=lambda: np.zeros(EFFECTS))
 
     @classmethod
     def robot(cls, seed: int) -> Workshop:
@@ -64,13 +69,33 @@ class Workshop:
             rng,
         )
 
+    @classmethod
+    def sagging(
+        cls, seed: int, rest_mm: float = 0.01, lens_sigma_rad: float = LENS_RAD
+    ) -> Workshop:
+        """The same robot, sagging, with a sharp camera before a label that is not flat."""
+        chance = np.random.default_rng((seed, 1)).normal(size=EFFECTS)
+        robot = cls.robot(seed)
+        known = robot.known.model_copy(update={"lens_sigma_rad": lens_sigma_rad})
+        return replace(
+            robot,
+            known=known,
+            rest_mm=rest_mm,
+            picture_mm=0.2 * PICTURE_MM,
+            effects=effect_sigmas(lens_sigma_rad) * chance,
+        )
+
     def look(self, rho_mm: Array, *, label_moved_mm: float = 0.0) -> LabelLook:
         """One look, with the camera's noise and the robot's play."""
-        platform = self.built.forward_many(rho_mm) + REST_MM * self.rng.normal(size=2)
+        platform = self.built.forward_many(rho_mm) + self.rest_mm * self.rng.normal(size=2)
         way = self.way_mm + np.array([label_moved_mm, 0.0, 0.0])
         way[:2] -= platform
         seen = self.R_base_camera.T @ way / self.label_ratio
-        return LabelLook(rho_mm, seen + PICTURE_MM @ self.rng.normal(size=3), PICTURE_MM**2)
+        shared = common_effects(seen[None], platform[None], self.R_base_camera, DRAWN.regular_box)[
+            0
+        ]
+        seen = seen + shared @ self.effects + self.picture_mm @ self.rng.normal(size=3)
+        return LabelLook(rho_mm, seen, self.picture_mm**2)
 
     def looks(self, count: int = 25) -> list[LabelLook]:
         """From random places over the box."""

@@ -29,7 +29,7 @@ def solved(robot: Workshop, looks: list[LabelLook] | None = None) -> RobotSoluti
 def test_two_millimetres_become_less_than_a_tenth() -> None:
     before, after = [], []
     for seed in range(40):
-        robot = Workshop.robot(seed)
+        robot = Workshop.sagging(seed)
         before.append(robot.error_mm(AS_DRAWN))
         after.append(robot.error_mm(solved(robot).unknowns.built))
     assert np.percentile(before, 95) > 1.5
@@ -37,21 +37,25 @@ def test_two_millimetres_become_less_than_a_tenth() -> None:
 
 
 def test_the_camera_is_found_too() -> None:
-    robot = Workshop.robot(7)
+    robot = Workshop.sagging(7, 0.004)
     found = solved(robot).unknowns
     off = cv2.Rodrigues(found.R_base_camera @ robot.R_base_camera.T)[0].ravel()
     # its roll shares a frame with the rails, whose mean direction is the x axis here
     roll = 0.5 * (robot.built.left_rail_rad + robot.built.right_rail_rad)
-    np.testing.assert_allclose(off, [0.0, 0.0, -roll], atol=3e-4)
+    np.testing.assert_allclose(off, [0.0, 0.0, -roll], atol=5e-4)
     # the scale of everything is known only as well as the belts were measured
     assert found.label_ratio == pytest.approx(robot.label_ratio, abs=1e-3)
 
 
-def test_the_stated_covariance_holds_the_truth() -> None:
-    """Squared Mahalanobis distance of the seven numbers of the mechanism: chi squared with 7."""
+@pytest.mark.parametrize("lens_sigma_rad", [2e-4, 3e-3])
+def test_the_stated_covariance_holds_the_truth(lens_sigma_rad: float) -> None:
+    """Squared Mahalanobis distance of the seven numbers of the mechanism: chi squared with 7.
+
+    Of robots whose camera saw the board, and of others.
+    """
     inside = []
-    for seed in range(200):
-        robot = Workshop.robot(seed)
+    for seed in range(100):
+        robot = Workshop.sagging(seed, 0.004, lens_sigma_rad)
         found = solved(robot)
         off = (found.unknowns.values - truth_of(robot))[MECHANISM]
         covariance = found.covariance[MECHANISM, MECHANISM]
@@ -92,8 +96,8 @@ def test_swapped_carriages_are_noticed() -> None:
 
 
 def test_a_good_calibration_says_so_and_is_not_improved_by_the_drawing() -> None:
-    robot = Workshop.robot(6)
-    looks = robot.looks()
+    robot = Workshop.sagging(6)
+    looks = best_looks(robot, 22)
     verdict = judge(solved(robot, looks), looks, robot.known, AS_DRAWN)
     assert verdict.grade is Grade.GOOD, verdict.remarks
     assert verdict.held_back_mm < 0.06 < verdict.in_use_mm
@@ -124,20 +128,46 @@ def test_the_scale_of_everything_is_what_nobody_saw() -> None:
     assert least[-1].seen
 
 
+def best_looks(robot: Workshop, count: int) -> list[LabelLook]:
+    rho = alpha.inverse_many(DRAWN, GRID)
+    guess = Unknowns.guess(DRAWN, R_DRAWN, rho[0], robot.look(rho[0]).label_mm)
+    best = choose_places(rho, guess, robot.known, count)
+    assert len(set(best.tolist())) == count
+    return [robot.look(rho[place]) for place in best]
+
+
 def test_chosen_places_tell_more_than_random_ones() -> None:
     chosen_mm, random_mm = [], []
     for seed in range(30):
-        robot = Workshop.robot(seed)
-        rho = alpha.inverse_many(DRAWN, GRID)
-        guess = Unknowns.guess(DRAWN, R_DRAWN, rho[0], robot.look(rho[0]).label_mm)
-        best = choose_places(rho, guess, robot.known, 15)
-        assert len(set(best.tolist())) == 15
-        chosen = solved(robot, [robot.look(rho[place]) for place in best])
+        robot = Workshop.sagging(seed)
+        chosen = solved(robot, best_looks(robot, 15))
         chosen_mm.append(robot.error_mm(chosen.unknowns.built))
+        rho = alpha.inverse_many(DRAWN, GRID)
         some = robot.rng.choice(len(rho), 15, replace=False)
         found = solved(robot, [robot.look(rho[place]) for place in some])
         random_mm.append(robot.error_mm(found.unknowns.built))
     assert np.percentile(chosen_mm, 95) < np.percentile(random_mm, 95)
+
+
+def test_where_looks_were_taken_no_more_are_needed() -> None:
+    robot = Workshop.robot(0)
+    rho = alpha.inverse_many(DRAWN, GRID)
+    left = rho[GRID[:, 0] < 600.0]
+    guess = Unknowns.guess(DRAWN, R_DRAWN, rho[0], robot.look(rho[0]).label_mm)
+    further = choose_places(rho, guess, robot.known, 4, left)
+    assert np.all(GRID[further, 0] > 650.0)
+
+
+def test_how_exactly_it_comes_to_rest_is_told_by_the_looks() -> None:
+    """Six thousandths or twelve; and a look at a moved label is no part of it."""
+    for rest_mm in (0.006, 0.012):
+        robots = [Workshop.sagging(seed, rest_mm) for seed in range(9)]
+        found = [solved(robot, robot.looks()) for robot in robots]
+        assert np.median([one.rest_sigma_mm for one in found]) == pytest.approx(rest_mm, rel=0.25)
+    robot = Workshop.sagging(3, 0.006)
+    looks = robot.looks()
+    looks[11] = robot.look(looks[11].rho_mm, label_moved_mm=3.0)
+    assert solved(robot, looks).rest_sigma_mm < 0.012
 
 
 def test_places_are_visited_with_little_travel() -> None:

@@ -33,11 +33,13 @@ def test_the_derivatives_of_the_platform_are_its_slopes() -> None:
 def test_it_holds_what_the_platform_really_misses() -> None:
     held = []
     for seed in range(30):
-        robot = Workshop.robot(seed)
+        robot = Workshop.sagging(seed)
         found = solve_robot(robot.looks(), DRAWN, R_DRAWN, robot.known)
         missed_mm = np.percentile(robot.error_mm(found.unknowns.built), 95)
         doubt = tip_doubt(found)
-        assert doubt.likely_mm < doubt.at_most_mm < 0.2
+        assert doubt.likely_mm < doubt.at_most_mm < 0.3, (
+            "places of chance tell less than chosen ones"
+        )
         held.append(missed_mm < doubt.at_most_mm)
     assert np.mean(held) >= 0.95
 

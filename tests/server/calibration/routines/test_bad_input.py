@@ -23,7 +23,7 @@ SWITCH_MM = 3.0
 @pytest.fixture(autouse=True)
 def short(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ten poses and one picture of each."""
-    monkeypatch.setattr(robot_routine, "CHOSEN", 6)
+    monkeypatch.setattr(robot_routine, "POSES", 10)
     monkeypatch.setattr(robot_routine, "FEWEST_LOOKS", 8)
     monkeypatch.setattr(stand, "FRAMES", 1)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
@@ -10,6 +11,8 @@ from server.calibration.robot.known_before import KnownBefore
 from server.calibration.routines.robot_routine import RobotRoutine
 from server.calibration.routines.stand import Stand
 from server.calibration.versions.values import ValuesInForce
+from server.config.settings import Settings
+from server.localisation.eye import Eye
 from server.schema.calibrations import Provenance, RobotEvidence, RobotValues
 from server.schema.routines import BeltReading, RobotRoutineRequest
 from server.schema.vehicles import Vehicle
@@ -36,8 +39,11 @@ def known(
             looks=[], sigma=sigmas, unseen=[], duration_s=0.0, provenance=provenance
         )
     in_force = ValuesInForce(robot=values)
-    nothing = (NOTHING, NOTHING)
-    stand = Stand(NOTHING, NOTHING, NOTHING, None, *nothing, in_force, evidence, *nothing)
+    settings = Settings()
+    eye = cast("Eye", SimpleNamespace(optics=settings.camera.optics))
+    stand = Stand(
+        NOTHING, NOTHING, eye, None, settings, NOTHING, in_force, evidence, NOTHING, NOTHING
+    )
     return RobotRoutine(request, "Anna", SIZED)._known(stand)
 
 
@@ -62,3 +68,4 @@ def test_belts_come_from_a_rule_typed_in_now_or_before(
     found = known(request_, sigma, provenance)
     assert found.scales == pytest.approx(scales)
     assert found.scale_sigma == pytest.approx(scale_sigma)
+    assert found.lens_sigma_rad == 3e-3, "nobody has shown it the board"

@@ -60,7 +60,7 @@ def test_looks_outlive_a_restart_unless_the_label_has_moved(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, moved: bool
 ) -> None:
     monkeypatch.setattr(stand, "FRAMES", 1)
-    monkeypatch.setattr(robot_routine, "CHOSEN", 6)
+    monkeypatch.setattr(robot_routine, "POSES", 10)
     monkeypatch.setattr(robot_routine, "FEWEST_LOOKS", 8)
 
     async def first(scene: Scene) -> None:
@@ -88,7 +88,7 @@ def test_looks_outlive_a_restart_unless_the_label_has_moved(
             assert routine.problem is not None
             assert routine.problem.code == "calibration_label_moved"
         else:
-            assert routine.done <= 11, "only the places that were left, and the first one twice"
+            assert routine.done == 10, "the first one twice, and one less of those that were left"
 
     with pytest.raises(PowerFailedError):
         on_scene(first, seed=2, folder=tmp_path)
