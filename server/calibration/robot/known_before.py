@@ -31,6 +31,7 @@ class KnownBefore(BaseModel):
     right_scale: Ratio = Field(1.0, description="measured travel over the commanded one")
     scale_sigma: Sigma = Field(0.004, description="of both; 0.0004 once they are measured")
     label_ratio_sigma: Sigma = Field(0.0025, description="printed size over the entered one")
+    switch_sigma_mm: Sigma = Field(0.01, description="how exactly homing finds each switch again")
     lens_sigma_rad: Sigma = Field(
         2e-4, description="centre of the picture over the focal length; 0.003 by the data sheet"
     )

@@ -40,6 +40,7 @@ HUBER = 3.4
 FITS = 0.5
 """A look of less weight does not fit to the others."""
 
+_FEET = NAMES.index("right_foot_x_mm")
 _STEPS = 60
 _SMALL_STEP = 1e-7
 """A step this small against the posterior sigma changes nothing."""
@@ -59,7 +60,7 @@ class RobotSolution:
     Attributes:
         unknowns: The solution.
         shared: What all looks share, in the order of `common_effects`, shape (16,).
-        covariance: Of the unknowns, shape (14, 14).
+        covariance: Of the unknowns, as the robot is once it was homed again, shape (14, 14).
         residual_mm: Of each look, seen less predicted, camera frame, shape (n, 3) [mm].
         weight: Of each look, 1 down to 0 for one that does not fit, shape (n,).
         rest_sigma_mm: How exactly the platform came to rest, along each axis.
@@ -114,7 +115,8 @@ def solve_robot(
         )
     table = LookTable.of(looks)
     start = Unknowns.guess(drawn, R_base_camera_drawn, table.rho_mm[0], table.label_mm[0])
-    prior = _Prior.about(start, known or KnownBefore())
+    known = known or KnownBefore()
+    prior = _Prior.about(start, known)
     # the effects are so small that a look a few millimetres beside its place feels the same ones
     effects = _effects_at(table, start)
     fit = _Fit(prior.centre, np.zeros(EFFECTS))
@@ -127,10 +129,13 @@ def solve_robot(
             break
         rest_sigma_mm = found_mm
     normal, _, weight = _normal_equations(fit, data, prior)
+    covariance = np.asarray(np.linalg.inv(normal))[: len(NAMES), : len(NAMES)]
+    # both carriages count from switches, which the next homing finds a little elsewhere
+    covariance[_FEET, _FEET] += 2.0 * known.switch_sigma_mm**2
     return RobotSolution(
         fit.unknowns,
         fit.shared,
-        np.asarray(np.linalg.inv(normal))[: len(NAMES), : len(NAMES)],
+        covariance,
         fit.residual(table, effects),
         weight,
         rest_sigma_mm,
