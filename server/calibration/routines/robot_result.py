@@ -21,8 +21,8 @@ from server.schema.calibrations import RobotEvidence, RobotValues
 from twin.as_built import PlanarAsBuilt
 
 LENS_UNKNOWN = (
-    "The camera's own numbers are those of its data sheet. Where its centre is off, a straight "
-    "robot looks skewed: calibrate the camera with the board, then repeat."
+    "The camera's own numbers are those of its data sheet, and jobs aim with them: calibrate the "
+    "camera with the board, then repeat."
 )
 
 

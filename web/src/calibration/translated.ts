@@ -70,6 +70,7 @@ const REMARKS = {
   lag: /^The (left|right) carriage lags by ([\d.]+) mm/,
   friction: /^The slide takes (-?[\d.]+) N to move freely/,
   offset: /^Without any force the motor current shows (-?[\d.]+) N/,
+  lens: /^The camera's own numbers are those of its data sheet/,
   edges: /^At the edges of the workspace the plug may still be ([\d.]+) mm off/,
   corners: /^The corners are ([\d.]+) px off/,
   focal: /^The focal length is sure to ([\d.]+) %/,

@@ -44,6 +44,7 @@ export const remarks: CalibrationWords["remarks"] = {
   friction: (a) => `Der Schieber braucht ${a} N, um frei zu laufen: reinigen und fetten Sie seine Spindel.`,
   offset: (a) => `Ohne Kraft zeigt der Motorstrom ${a} N: etwas zieht am Schieber, etwa das Kabel.`,
   scale: (a) => `Die gezeigte Kraft ist das ${a}-Fache der wahren: nehmen Sie dies in Gebrauch, oder berichtigen Sie in den Einstellungen der Platine die Kraft des Motors für seinen Strom und messen Sie noch einmal.`,
+  lens: () => "Die Werte der Kamera sind die aus ihrem Datenblatt, und danach wird gezielt: Kalibrieren Sie die Kamera mit der Tafel, dann wiederholen Sie.",
   edges: (a) => `Am Rand des Arbeitsraums kann der Stecker noch ${a} mm danebenliegen: messen Sie die Riemen über 400 mm und die Marke mit der Schieblehre, stellen Sie die Marke nahe an die Mitte des Arbeitsraums, und wiederholen Sie.`,
   corners: (a) => `Die Ecken liegen im Mittel ${a} px daneben: ist die Tafel eben, der Fokus fest, und nichts unscharf?`,
   focal: (a) => `Die Brennweite ist nur auf ${a} % sicher: nehmen Sie mehr Bilder schräg und aus verschiedenen Abständen auf.`,

@@ -45,6 +45,7 @@ export const remarks: CalibrationWords["remarks"] = {
   friction: (a) => `La glissière demande ${a} N pour bouger à vide\u00a0: nettoyez et graissez sa vis.`,
   offset: (a) => `Sans aucune force, le courant du moteur montre ${a} N\u00a0: quelque chose tire sur la glissière, le câble par exemple.`,
   scale: (a) => `La force affichée vaut ${a} fois la vraie\u00a0: mettez cette version en vigueur, ou corrigez la force du moteur pour son courant dans les réglages de la carte et recommencez.`,
+  lens: () => "Les valeurs de la caméra sont celles de sa fiche technique, et le robot vise d’après elles\u00a0: étalonnez la caméra avec la mire, puis recommencez.",
   edges: (a) => `Au bord de l’espace de travail, le connecteur peut encore être à ${a} mm\u00a0: mesurez les courroies sur 400 mm et l’étiquette au pied à coulisse, placez l’étiquette près du milieu de l’espace de travail, et répétez.`,
   corners: (a) => `Les coins ont en moyenne ${a} px d’écart\u00a0: la mire est-elle plate, la mise au point fixe, et rien de flou\u00a0?`,
   focal: (a) => `La focale n’est sûre qu’à ${a} % près\u00a0: prenez plus d’images de biais et à des distances différentes.`,

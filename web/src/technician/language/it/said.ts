@@ -45,6 +45,7 @@ export const remarks: CalibrationWords["remarks"] = {
   friction: (a) => `La slitta richiede ${a} N per muoversi a vuoto: pulire e ingrassare la sua vite.`,
   offset: (a) => `Senza alcuna forza la corrente del motore mostra ${a} N: qualcosa tira la slitta, per esempio il cavo.`,
   scale: (a) => `La forza mostrata è ${a} volte quella vera: mettere in vigore questa versione, oppure correggere la forza del motore per la sua corrente nelle impostazioni della scheda e ripetere.`,
+  lens: () => "I valori della telecamera sono quelli della scheda tecnica, e il robot mira secondo quelli: calibrare la telecamera con la tavola, poi ripetere.",
   edges: (a) => `Ai bordi dell’area di lavoro il connettore può ancora sbagliare di ${a} mm: misurare le cinghie su 400 mm e l’etichetta con il calibro, mettere l’etichetta vicino al centro dell’area di lavoro, e ripetere.`,
   corners: (a) => `Gli angoli sbagliano in media di ${a} px: la tavola è piana, il fuoco fisso, e nulla sfocato?`,
   focal: (a) => `La focale è sicura solo al ${a} %: prendere più immagini di sbieco e a distanze diverse.`,
