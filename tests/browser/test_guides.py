@@ -74,7 +74,8 @@ def test_no_guide_is_loaded_before_it_is_asked_for(
 
 def test_without_its_files_a_guide_says_so(browser: Browser, address: str, stage: Stage) -> None:
     stage.live = SCENES["needs_person"]
-    page = browser.new_page(locale="en-GB")
+    # A service worker, once it is there, fetches around what a test puts in the way.
+    page = browser.new_page(locale="en-GB", service_workers="block")
     page.route("**/assets/dialog*.js", lambda route: route.abort())
     page.goto(address)
     page.locator(".guide-button").click()

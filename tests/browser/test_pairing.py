@@ -117,7 +117,8 @@ def test_the_owner_invites_and_removes(browser: Browser, server: ServerProcess) 
             expect(person).to_have_count(0)
         owner.get_by_role("button", name="Activity").click()
         expect(owner.locator(".trail")).to_contain_text("New device paired")
-        expect(owner.locator(".trail")).to_contain_text("Refused: createJob, forbidden")
+        refusal = "Refused: Begin a charge or another job (forbidden)"
+        expect(owner.locator(".trail")).to_contain_text(refusal)
 
 
 def test_a_key_is_shown_once(browser: Browser, server: ServerProcess) -> None:

@@ -117,10 +117,7 @@ def test_the_service_worker_shows_what_comes(phone: Page, address: str) -> None:
         "navigator.serviceWorker.ready.then((r) => r.getNotifications())"
         ".then((all) => all.map((n) => [n.title, n.lang, n.tag]))"
     )
-    for _ in range(50):
-        if phone.evaluate(shown):
-            break
-        phone.wait_for_timeout(100)
+    phone.wait_for_function(f"{shown}.then((all) => all.length > 0)")
     assert phone.evaluate(shown) == [["Le robot a besoin de vous", "fr", "plugpilot"]]
 
 

@@ -32,10 +32,15 @@ function factsOf(detail: TrailEntry["detail"]): string[] {
     const value = detail[fact];
     if (typeof value !== "string") return null;
     if (fact === "role") return nameIn(say.roles, value)?.name ?? value;
-    if (fact === "code") return told({ code: value, title: value, detail: "", remedy: "" }).title;
+    if (fact === "code") return titleOfProblem(value);
     return value;
   });
   return facts.filter((fact) => fact !== null);
+}
+
+/** In English, where the server has the words, the code says it. */
+function titleOfProblem(code: string): string {
+  return told({ code, title: code.replaceAll("_", " "), detail: "", remedy: "" }).title;
 }
 
 /** From a list of words; undefined for what is not in it, as from a newer server. */
