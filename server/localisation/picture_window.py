@@ -22,13 +22,14 @@ from drivers.camera import CameraModel
 from server.config.camera import CameraDoubt
 from server.localisation.frames import label_from_socket
 from server.localisation.known_camera import KnownCamera
+from server.localisation.plug_shadow import hidden_by_plug
 from server.schema.vehicles import Vehicle
 from twin.geometry import RobotGeometry
 from twin.kinematics import gamma
 
 Points = NDArray[np.float64]
 
-MARGIN = 1.16
+LABEL_MARGIN = 1.16
 """A 25-module code with the two modules around it that the reader needs, over the code alone."""
 IMAGE_MARGIN_PX = 12.0
 FARTHEST_SIGHT = 1.2
@@ -132,27 +133,15 @@ class PictureWindow:
         )
 
     def _behind_plug(self, points: Points) -> NDArray[np.bool_]:
-        """Whether the line of sight to a point passes through the plug, shape (...).
-
-        The plug is a cylinder from the platform to the tip. Where sight line and plug axis lie
-        nearest, the distance of the two lines decides.
-
-        Args:
-            points: From the camera, in axes of the base, shape (..., 3).
-        """
-        tip, axis = self._tip - self._camera[:3, 3], self._axis
-        length_mm = self._tip[2] / axis[2]
-        sight = points / np.linalg.norm(points, axis=-1, keepdims=True)
-        # Nearest points of the sight line (s along it) and the plug's axis (t back from the tip),
-        # both limited to where the plug really is.
-        along = sight @ axis
-        denominator = np.maximum(1.0 - along**2, 1e-9)
-        s = (sight @ tip - along * (tip @ axis)) / denominator
-        t = np.clip(s * along - tip @ axis, -length_mm, 0.0)
-        nearest = tip + t[..., None] * axis
-        s = np.clip((nearest * sight).sum(axis=-1), 0.0, None)
-        gap = np.linalg.norm(s[..., None] * sight - nearest, axis=-1)
-        return np.asarray(gap < self._plug_radius_mm)
+        """Points from the camera, in axes of the base, shape (..., 3)."""
+        tip = self._tip - self._camera[:3, 3]
+        return hidden_by_plug(
+            points,
+            tip=tip,
+            axis=self._axis,
+            length_mm=float(self._tip[2] / self._axis[2]),
+            radius_mm=self._plug_radius_mm,
+        )
 
 
 def _label_beside_socket(geometry: RobotGeometry, vehicle: Vehicle) -> Points:
@@ -170,7 +159,7 @@ def _facing_the_car(geometry: RobotGeometry) -> Points:
 
 def _rim(geometry: RobotGeometry, vehicle: Vehicle, tilt_rad: float, cell_mm: float) -> Points:
     """Around a label, from its centre, in axes of the base, shape (8, 3) [mm]."""
-    half_mm = 0.5 * MARGIN * vehicle.label_size_mm * (math.cos(tilt_rad) + math.sin(tilt_rad))
+    half_mm = 0.5 * LABEL_MARGIN * vehicle.label_size_mm * (math.cos(tilt_rad) + math.sin(tilt_rad))
     rim = half_mm * _RIM @ _facing_the_car(geometry)[:, :2].T
     rim[:, :2] += 0.5 * cell_mm * np.sign(np.round(rim[:, :2]))
     return rim

@@ -68,16 +68,37 @@ def standing_places(geometry: RobotGeometry, built: BuiltRobot, step_mm: float) 
 def can_stand(geometry: RobotGeometry, built: BuiltRobot, places: Places) -> NDArray[np.bool_]:
     """Whether the built platform can stand there, with room at the rails' ends, shape (n,)."""
     rho = alpha.inverse_many(geometry, places)
-    joints = np.column_stack((rho, np.full(len(rho), geometry.rho3.min_mm)))
+    stands = carriages_stand(geometry, rho)
+    if built.correction is not None:
+        stands &= _on_the_rails(
+            geometry, built.correction.to_board_many(_drawn_back(geometry, rho))
+        )
+    return stands
+
+
+def carriages_stand(geometry: RobotGeometry, rho_mm: Places) -> NDArray[np.bool_]:
+    """Whether the drawn carriages have room at the rails' ends and the robot is stiff, shape (n,).
+
+    Args:
+        geometry: Of the robot.
+        rho_mm: rho1 and rho2, shape (n, 2); NaN stands nowhere.
+    """
+    joints = _drawn_back(geometry, rho_mm)
     limits = singularity.thresholds(singularity.SingularityLimits())
-    stands = np.all(singularity.measures_many(geometry, joints) >= limits, axis=1)
+    stiff = np.all(singularity.measures_many(geometry, joints) >= limits, axis=1)
+    return np.asarray(stiff & _on_the_rails(geometry, joints))
+
+
+def _drawn_back(geometry: RobotGeometry, rho_mm: Places) -> NDArray[np.float64]:
+    """Joints with the slide drawn back, shape (n, 3)."""
+    return np.column_stack((rho_mm, np.full(len(rho_mm), geometry.rho3.min_mm)))
+
+
+def _on_the_rails(geometry: RobotGeometry, joints: NDArray[np.float64]) -> NDArray[np.bool_]:
     low = np.array([geometry.rho1.min_mm, geometry.rho2.min_mm]) + RAIL_END_MM
     high = np.array([geometry.rho1.max_mm, geometry.rho2.max_mm]) - RAIL_END_MM
-    board = joints if built.correction is None else built.correction.to_board_many(joints)
-    for mechanism in (joints, board):
-        carriages = mechanism[:, :2]
-        stands &= np.all((carriages > low) & (carriages < high), axis=1)  # NaN compares false
-    return np.asarray(stands)
+    carriages = joints[:, :2]
+    return np.asarray(np.all((carriages > low) & (carriages < high), axis=1))
 
 
 def beyond_regular_box_mm(geometry: RobotGeometry, places: Places) -> NDArray[np.float64]:

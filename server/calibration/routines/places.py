@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import cv2
@@ -10,17 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.camera import CameraModel
+from server.localisation.picture_window import LABEL_MARGIN
+from server.localisation.platform_places import carriages_stand
+from server.localisation.plug_shadow import hidden_by_plug
 from twin.camera_mount import CameraMount
 from twin.geometry import RobotGeometry
-from twin.kinematics import alpha, gamma, singularity
+from twin.kinematics import alpha, gamma
 
 Array = NDArray[np.float64]
 
 STEP_MM = 20.0
 REACH_MM = 220.0
-RAIL_END_MM = 8.0
-LABEL_MARGIN = 1.16
-"""Code and the quiet zone that the reader needs, over the code alone."""
 
 
 class Margins(NamedTuple):
@@ -48,13 +49,7 @@ def reachable_places(geometry: RobotGeometry, centre_mm: Array) -> Array:
     steps = np.arange(-REACH_MM, REACH_MM + 1, STEP_MM)
     away = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
     rho = alpha.inverse_many(geometry, centre_mm + away)
-    low = np.array([geometry.rho1.min_mm, geometry.rho2.min_mm]) + RAIL_END_MM
-    high = np.array([geometry.rho1.max_mm, geometry.rho2.max_mm]) - RAIL_END_MM
-    rho = rho[np.all((rho > low) & (rho < high), axis=1)]
-    joints = np.column_stack((rho, np.full(len(rho), geometry.rho3.min_mm)))
-    limits = singularity.thresholds(singularity.SingularityLimits())
-    regular = np.all(singularity.measures_many(geometry, joints) >= limits, axis=1)
-    return rho[regular]
+    return rho[carriages_stand(geometry, rho)]
 
 
 def label_is_seen(
@@ -96,9 +91,6 @@ def behind_the_plug(
 ) -> Callable[[Array], NDArray[np.bool_]]:
     """Tells which points the plug hides while it is drawn back.
 
-    The plug is a cylinder from the platform to its tip; what comes nearer to its axis than its
-    half width and a margin, anywhere on the line of sight, is hidden.
-
     Args:
         geometry: Of the robot as drawn.
         mount: Where the camera sits on the platform.
@@ -108,15 +100,10 @@ def behind_the_plug(
     dy_mm, z_mm = gamma.tip_offset(geometry, geometry.rho3.min_mm)
     towards = np.array(geometry.insertion_axis)
     tip = np.array([0.0, dy_mm, z_mm]) - mount.T_platform_camera[:3, 3]
-    axis = np.linspace(0.0, z_mm / towards[2], 41)[:, None] * -towards + tip
-    width_mm = 0.5 * geometry.plug_diameter_mm + margin_mm
-    in_camera = axis @ R_base_camera
-
-    def hidden(points_mm: Array) -> NDArray[np.bool_]:
-        sight = points_mm / np.linalg.norm(points_mm, axis=1, keepdims=True)
-        along = sight @ in_camera.T
-        off = np.sum(in_camera**2, axis=1) - along**2
-        within = (along > 0) & (along < np.linalg.norm(points_mm, axis=1, keepdims=True))
-        return np.asarray(np.any(within & (off < width_mm**2), axis=1))
-
-    return hidden
+    return partial(
+        hidden_by_plug,
+        tip=tip @ R_base_camera,
+        axis=towards @ R_base_camera,
+        length_mm=float(z_mm / towards[2]),
+        radius_mm=0.5 * geometry.plug_diameter_mm + margin_mm,
+    )

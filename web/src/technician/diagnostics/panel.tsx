@@ -5,6 +5,7 @@ import { call, Refusal } from "@/api/client";
 import type { Trouble } from "@/api/client";
 import type { Versions } from "@/api/wire";
 import { download } from "../parts/download";
+import { Figures } from "../parts/figures";
 import { Panel } from "../parts/panel";
 import { TroubleNote } from "../parts/trouble";
 import { fetchBundle } from "./bundle";
@@ -82,15 +83,7 @@ function VersionList({ versions }: { versions: Versions }) {
   ] as const;
   return (
     <section class="diagnostics-versions">
-      <h3>{say.versions}</h3>
-      <dl class="list">
-        {lines.map(([name, value]) => (
-          <div key={name}>
-            <dt>{name}</dt>
-            <dd>{value}</dd>
-          </div>
-        ))}
-      </dl>
+      <Figures title={say.versions} lines={lines} />
     </section>
   );
 }
