@@ -59,7 +59,7 @@ def test_a_driver_that_cannot_tell_leaves_what_the_telemetry_shows() -> None:
 
     async def scenario(scene: Scene, _: httpx.AsyncClient) -> None:
         telemetry, calendar = scene.services.supervisor.telemetry, scene.services.calendar
-        reporter = LinkReporter(Silent(), telemetry, calendar)  # type: ignore[arg-type] # on purpose
+        reporter = LinkReporter(Silent(), telemetry, calendar)  # type: ignore[arg-type] # drives nothing
         report = reporter.report()
         assert report.online
         assert report.sample_age_s is not None
